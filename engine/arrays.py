@@ -1,0 +1,44 @@
+"""Structure-of-arrays helpers: how values become columns and columns become lanes.
+
+A *column* holds one parameter of many records: shape (M,) for a number, (3, M) for a colour or vector. The last
+axis always counts records or lanes, so the same code serves one and a million of them.
+"""
+
+from types import SimpleNamespace
+
+import numpy as np
+
+
+class Columns(SimpleNamespace):
+    """A table of parameters: every attribute is an array whose last axis counts the rows."""
+
+    def take(self, lanes):
+        """The rows `lanes` (M,), as a new table."""
+        return Columns(**{name: np.take(column, lanes, axis=-1) for name, column in vars(self).items()})
+
+
+def columns(rows, dtype=np.float32):
+    """Stack `rows`, a sequence of {name: number or 3-tuple}, into one table of `dtype`."""
+    return Columns(
+        **{
+            name: np.ascontiguousarray(np.array([row[name] for row in rows], dtype=dtype).T)
+            for name in (rows[0] if rows else ())
+        }
+    )
+
+
+def frozen(array, dtype, shape, subject, name):
+    """`array` as a read-only C-contiguous array of `dtype`; raises ValueError unless its shape fits.
+
+    `shape` gives each axis its length, None for any. An array that already fits is not copied.
+    """
+    try:
+        result = np.ascontiguousarray(array, dtype=dtype)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise ValueError(f"{subject}: {name} is not an array of numbers ({error})") from None
+    if len(result.shape) != len(shape) or any(want not in (None, have) for want, have in zip(shape, result.shape)):
+        wanted = "(" + ", ".join("any" if n is None else str(n) for n in shape) + ")"
+        raise ValueError(f"{subject}: {name} has shape {result.shape}, expected {wanted}")
+    result = result.view()
+    result.flags.writeable = False
+    return result

@@ -1,0 +1,5 @@
+"""The cameras: one file each, found by looking into this folder."""
+
+from ..registry import cameras as registry
+
+registry.discover(__name__, __path__)

@@ -1,0 +1,86 @@
+"""What a plug-in must offer. Every function is pure and works on lanes: arrays whose last axis is N.
+
+`k` is always a table of parameters (`arrays.Columns`) with one row per lane; random numbers are arguments.
+"""
+
+from typing import Protocol, runtime_checkable
+
+
+@runtime_checkable
+class Bsdf(Protocol):
+    """A reflection lobe about the shading normal `n` (3, N); `wo`, `wi` (3, N) are unit and leave the surface.
+
+    All three are defined for `wo` on the side of `n`; light from below the horizon of `n` is not reflected.
+    """
+
+    key: str
+    label: str
+
+    def row(self):
+        """The parameters as {column: number or 3-tuple}."""
+
+    def albedo(self):
+        """An upper bound, and the usual share, of reflected light (r, g, b), by which lobes are chosen."""
+
+    @staticmethod
+    def eval(k, n, wo, wi):
+        """BSDF value f [sr^-1], (3, N)."""
+
+    @staticmethod
+    def sample(k, n, wo, u2):
+        """Directions wi (3, N), unit, distributed as `pdf`; they may fall below the horizon, where f is 0."""
+
+    @staticmethod
+    def pdf(k, n, wo, wi):
+        """Density of `sample` over solid angle [sr^-1], (N,)."""
+
+
+@runtime_checkable
+class Light(Protocol):
+    """A light object that is no mesh."""
+
+    key: str
+    label: str
+
+    def row(self, frame):
+        """The parameters in render space (see world.frame), as {column: number or 3-tuple}."""
+
+    @staticmethod
+    def sample(k, p, u2):
+        """Towards a point on the light, seen from p (3, N): wi (3, N), distance (N,), E (3, N), pdf (N,).
+
+        E = L / pdf [W m^-2] is what one sample adds to the irradiance of a surface that faces the light. pdf is the
+        density over solid angle [sr^-1]; inf for a light without a size, which no scattered ray can meet.
+        """
+
+    @staticmethod
+    def hit(k, o, d):
+        """Where rays meet the light: t (N,), inf for a miss; L (3, N) towards the ray; pdf (N,) of `sample` at o."""
+
+
+@runtime_checkable
+class Sampler(Protocol):
+    """Random numbers as a pure function of pixel, sample and dimension."""
+
+    key: str
+    label: str
+
+    @staticmethod
+    def one(key, sample, dimension, samples):
+        """u1 (N,) in [0, 1): key (N,) uint32 of the pixel, sample (N,) uint32 of `samples`, dimension int."""
+
+    @staticmethod
+    def two(key, sample, dimension, samples):
+        """u2 (2, N) in [0, 1)."""
+
+
+@runtime_checkable
+class Filter(Protocol):
+    """A pixel filter, sampled by its own shape so that every sample weighs the same."""
+
+    key: str
+    label: str
+
+    @staticmethod
+    def offset(u2, width):
+        """Offsets from the pixel's centre [px], (2, N), distributed as the filter of full width `width` [px]."""

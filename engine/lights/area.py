@@ -1,0 +1,105 @@
+"""Light from a flat shape, into the half space that it faces."""
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..constants import PI
+from ..maths.vectors import dot
+from ..maths.warps import square_to_disk
+from . import registry
+
+
+@registry.add
+@dataclass(frozen=True, kw_only=True, eq=False)
+class AreaLight:
+    """A rectangle or ellipse in the xy plane of its own frame that shines along -z.
+
+    world_from_light  (4, 4); its scale changes the size
+    size_x, size_y    full width and height in the light's frame [m]
+    is_ellipse        an ellipse that fills the rectangle
+    radiance          [W m^-2 sr^-1], (r, g, b), on the axis
+    spread            full angle [rad] in (0, pi] into which it shines; below pi, radiance falls with the angle as
+                      behind a grid: max(tan a - tan theta, 0) / (tan a - a), a = spread / 2, so the flux stays
+    """
+
+    key = "area"
+    label = "Area"
+
+    name: str = "Area"
+    world_from_light: np.ndarray = field(default_factory=lambda: np.eye(4))
+    size_x: float = 1.0
+    size_y: float = 1.0
+    is_ellipse: bool = False
+    radiance: tuple = (1.0, 1.0, 1.0)
+    spread: float = math.pi
+
+    def _axes(self):
+        matrix = np.asarray(self.world_from_light, np.float64)
+        return matrix[:3, 0] * self.size_x, matrix[:3, 1] * self.size_y
+
+    def area(self):
+        """World-space area [m^2]."""
+        share = 0.25 * PI if self.is_ellipse else 1.0
+        return share * float(np.linalg.norm(np.cross(*self._axes())))
+
+    def row(self, frame):
+        x, y = self._axes()
+        normal = -np.cross(x, y)
+        norm = np.linalg.norm(normal)
+        half = 0.5 * self.spread
+        # The factor (tan a) / (tan a - a) and cot a: finite for a = pi / 2, where the light is Lambertian.
+        cot = math.cos(half) / math.sin(half)
+        gain = 1 / (1 - half * cot) if half > 0.05 else 3 / (half * half)
+        return {
+            "centre": tuple(frame.points(np.asarray(self.world_from_light, np.float64)[:3, 3:4])[:, 0]),
+            "axis_x": tuple(x * frame.scale),
+            "axis_y": tuple(y * frame.scale),
+            "normal": tuple(normal / norm if norm > 0 else normal),
+            "area": self.area() * frame.scale**2,
+            "ellipse": float(self.is_ellipse),
+            "radiance": self.radiance,
+            "cot_spread": cot if self.spread < PI else 0.0,
+            "gain": gain if self.spread < PI else 1.0,
+        }
+
+    def power(self):
+        """Radiant flux [W], (r, g, b): pi A L."""
+        return tuple(PI * self.area() * c for c in self.radiance)
+
+    @staticmethod
+    def sample(k, p, u2):
+        x, y = np.where(k.ellipse > 0, 0.5 * square_to_disk(u2), u2 - 0.5)
+        to_light = k.centre + x * k.axis_x + y * k.axis_y - p
+        distance2 = dot(to_light, to_light)
+        distance = np.sqrt(distance2)
+        wi = to_light / np.where(distance > 0, distance, 1)
+        cos = np.maximum(-dot(wi, k.normal), 0)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            pdf = distance2 / (k.area * cos)
+        facing = (cos > 0) & (distance > 0)
+        E = _radiance(k, cos) * (k.area * cos / np.where(facing, distance2, 1))
+        return wi, distance, E, np.where(facing, pdf, 1)
+
+    @staticmethod
+    def hit(k, o, d):
+        cos = -dot(d, k.normal)
+        facing = cos > 0
+        to_centre = k.centre - o
+        t = -dot(to_centre, k.normal) / np.where(facing, cos, 1)
+        offset = t * d - to_centre
+        x = dot(offset, k.axis_x) / np.maximum(dot(k.axis_x, k.axis_x), np.finfo(np.float32).tiny)
+        y = dot(offset, k.axis_y) / np.maximum(dot(k.axis_y, k.axis_y), np.finfo(np.float32).tiny)
+        within = np.where(k.ellipse > 0, x * x + y * y < 0.25, np.maximum(np.abs(x), np.abs(y)) < 0.5)
+        meets = facing & within & (t > 0)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            pdf = t * t / (k.area * np.maximum(cos, 0))
+        return np.where(meets, t, np.inf), _radiance(k, cos), pdf
+
+
+def _radiance(k, cos):
+    # gain * (1 - tan(theta) cot(a)); cot = 0 is the Lambertian light.
+    cos = np.clip(cos, 0, 1)
+    tan = np.sqrt(1 - cos * cos) / np.where(cos > 0, cos, 1)
+    return k.radiance * (k.gain * np.maximum(1 - tan * k.cot_spread, 0))

@@ -1,0 +1,42 @@
+"""Light from a point or a small bulb, falling with the square of the distance."""
+
+from dataclasses import dataclass
+
+from ..maths import bulbs
+from . import registry
+
+
+@registry.add
+@dataclass(frozen=True, kw_only=True)
+class PointLight:
+    """A point or bulb of equal intensity in all directions.
+
+    position      world space [m]
+    intensity     radiant intensity [W sr^-1], (r, g, b)
+    radius        of the bulb [m]; 0: a point
+    soft_falloff  the bulb is a disk that turns to face whatever it lights (Blender's default); else a sphere
+    """
+
+    key = "point"
+    label = "Point"
+
+    name: str = "Point"
+    position: tuple = (0.0, 0.0, 0.0)
+    intensity: tuple = (1.0, 1.0, 1.0)
+    radius: float = 0.0
+    soft_falloff: bool = True
+
+    def row(self, frame):
+        return bulbs.row(frame, self)
+
+    def power(self):
+        """Radiant flux [W], (r, g, b): 4 pi I."""
+        return bulbs.power(self)
+
+    @staticmethod
+    def sample(k, p, u2):
+        return bulbs.sample(k, p, u2)
+
+    @staticmethod
+    def hit(k, o, d):
+        return bulbs.hit(k, o, d)

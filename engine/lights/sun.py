@@ -1,0 +1,62 @@
+"""Light from so far away that it is the same everywhere."""
+
+import math
+from dataclasses import dataclass
+
+from ..constants import PI
+from ..maths.frames import to_world
+from ..maths.vectors import dot
+from ..maths.warps import square_to_cone, square_to_cone_pdf
+from . import registry
+
+import numpy as np
+
+
+@registry.add
+@dataclass(frozen=True, kw_only=True)
+class SunLight:
+    """A distant disk.
+
+    towards     unit vector to the middle of the disk, world space
+    irradiance  on a surface that faces it [W m^-2], (r, g, b)
+    angle       angular diameter [rad], in [0, pi]; 0: a direction
+
+    The disk has the radiance E / (pi sin^2(angle / 2)).
+    """
+
+    key = "sun"
+    label = "Sun"
+
+    name: str = "Sun"
+    towards: tuple = (0.0, 0.0, 1.0)
+    irradiance: tuple = (1.0, 1.0, 1.0)
+    angle: float = 0.0
+
+    def row(self, frame):
+        half = 0.5 * self.angle
+        sin2 = math.sin(half) ** 2
+        return {
+            "towards": self.towards,
+            "one_minus_cos": 2 * math.sin(0.5 * half) ** 2,
+            # L / pdf = E / (pi sin^2) * 2 pi (1 - cos) = 2 E / (1 + cos)
+            "irradiance": tuple(2 * c / (1 + math.cos(half)) for c in self.irradiance),
+            "radiance": tuple(c / (PI * sin2) if sin2 > 0 else 0.0 for c in self.irradiance),
+        }
+
+    def power(self):
+        """The flux through a unit disk [W], (r, g, b); the scene's size comes in where lights are compared."""
+        return tuple(PI * c for c in self.irradiance)
+
+    @staticmethod
+    def sample(k, p, u2):
+        wi = to_world(k.towards, square_to_cone(u2, k.one_minus_cos))
+        everywhere = np.ones_like(p[0])
+        return wi, everywhere * np.inf, k.irradiance * everywhere, square_to_cone_pdf(k.one_minus_cos) * everywhere
+
+    @staticmethod
+    def hit(k, o, d):
+        # |d - towards|^2 = 2 (1 - cos): no cancellation for a small disk.
+        apart = d - k.towards
+        inside = 0.5 * dot(apart, apart) < k.one_minus_cos
+        farthest = np.finfo(d.dtype).max
+        return np.where(inside, farthest, np.inf).astype(d.dtype), k.radiance, square_to_cone_pdf(k.one_minus_cos)

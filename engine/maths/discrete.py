@@ -1,0 +1,22 @@
+"""Choosing one of several, in proportion to given weights."""
+
+import numpy as np
+
+
+def cumulative(weights):
+    """Cumulative distribution (M,) float64, ending in exactly 1, of non-negative finite weights with a positive sum."""
+    cdf = np.cumsum(np.asarray(weights, np.float64) / np.max(weights))
+    cdf /= cdf[-1]
+    # Trailing weights of 0 must share the final 1, or rounding could choose them.
+    cdf[np.nonzero(weights)[0][-1] :] = 1.0
+    return cdf
+
+
+def probabilities(cdf):
+    """The probability of each choice, (M,): exactly what `choose` does with the rounded cdf."""
+    return np.diff(cdf, prepend=0.0)
+
+
+def choose(cdf, u1):
+    """Indices (N,): the i with cdf[i - 1] <= u1 < cdf[i]; a choice of probability 0 is never made."""
+    return np.searchsorted(cdf, u1, side="right")

@@ -1,0 +1,53 @@
+"""Vectors as rows: every array is (3, N), or (3, 1) to broadcast."""
+
+import numpy as np
+
+
+def dot(a, b):
+    """Scalar product, (N,)."""
+    result = a[0] * b[0]
+    result += a[1] * b[1]
+    result += a[2] * b[2]
+    return result
+
+
+def cross(a, b):
+    """Vector product, (3, N)."""
+    return np.stack((a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]))
+
+
+def length(a):
+    """Euclidean length, (N,)."""
+    return np.sqrt(dot(a, a))
+
+
+def normalize(a):
+    """Unit vectors along `a`; a zero vector stays zero."""
+    norm = length(a)
+    return a / np.where(norm > 0, norm, 1)
+
+
+def reflect(w, n):
+    """The mirror direction of w about n, both leaving the surface: 2 (w . n) n - w."""
+    return (2 * dot(w, n)) * n - w
+
+
+def face_towards(n, w):
+    """n, turned to the side of w."""
+    return np.copysign(1, dot(n, w)).astype(n.dtype, copy=False) * n
+
+
+def max_abs(a):
+    """The largest coordinate by magnitude, (N,)."""
+    return np.maximum(np.maximum(np.abs(a[0]), np.abs(a[1])), np.abs(a[2]))
+
+
+def cosine_power(a, b, exponent):
+    """max(a . b, 0)^exponent of unit vectors, also where the exponent is 1e6 and float32 cannot hold the cosine.
+
+    With q = |a - b|^2 / 2 = 1 - a . b the power is exp(exponent * log1p(-q)), and q keeps its digits near 0.
+    """
+    difference = a - b
+    q = 0.5 * dot(difference, difference)
+    inside = q < 1
+    return np.exp(exponent * np.log1p(-np.where(inside, q, 0))) * inside

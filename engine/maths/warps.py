@@ -1,0 +1,82 @@
+"""From the unit square to where samples are wanted; each warp stands beside its density.
+
+Every warp maps u2 (2, N) in [0, 1)^2 and is monotone in u2[0] along its own axis, so that stratified numbers stay
+stratified. Directions are about +z.
+"""
+
+import numpy as np
+
+from ..constants import INV_PI
+
+_TWO_PI = 2 * np.pi
+
+
+def square_to_disk(u2):
+    """Uniform on the unit disk, (2, N): r = sqrt(u), phi = 2 pi v."""
+    r = np.sqrt(u2[0])
+    phi = _TWO_PI * u2[1]
+    return np.stack((r * np.cos(phi), r * np.sin(phi)))
+
+
+def square_to_disk_pdf():
+    """1 / pi per unit area of the unit disk."""
+    return INV_PI
+
+
+def square_to_cosine_hemisphere(u2):
+    """Directions with density cos / pi (Malley's method: the disk, lifted)."""
+    x, y = square_to_disk(u2)
+    return np.stack((x, y, np.sqrt(1 - u2[0])))
+
+
+def square_to_cosine_hemisphere_pdf(w):
+    """cos / pi [sr^-1] above the horizon, else 0."""
+    return np.maximum(w[2], 0) * INV_PI
+
+
+def square_to_uniform_hemisphere(u2):
+    """Directions with density 1 / (2 pi): cos theta = 1 - u."""
+    return _about_axis(u2[0], _TWO_PI * u2[1])
+
+
+def square_to_uniform_hemisphere_pdf(w):
+    """1 / (2 pi) [sr^-1] above the horizon, else 0."""
+    return np.where(w[2] >= 0, 0.5 * INV_PI, 0)
+
+
+def square_to_cone(u2, one_minus_cos):
+    """Uniform within a cone about +z whose half-angle has 1 - cos = `one_minus_cos` (N,) in (0, 2]."""
+    return _about_axis(u2[0] * one_minus_cos, _TWO_PI * u2[1])
+
+
+def square_to_cone_pdf(one_minus_cos):
+    """1 / solid angle [sr^-1]; inf for a cone without an opening."""
+    with np.errstate(divide="ignore"):
+        return (0.5 * INV_PI) / one_minus_cos
+
+
+def square_to_cosine_power(u2, exponent):
+    """Directions with density (n + 1) / (2 pi) cos^n; cos = (1 - u)^(1 / (n + 1)).
+
+    1 - cos = -expm1(log1p(-u) / (n + 1)) keeps its digits for n = 1e6, where float32 cannot hold the cosine.
+    """
+    return _about_axis(-np.expm1(np.log1p(-u2[0]) / (exponent + 1)), _TWO_PI * u2[1])
+
+
+def square_to_cosine_power_pdf(w, exponent):
+    """(n + 1) / (2 pi) cos^n [sr^-1] above the horizon, else 0."""
+    return (exponent + 1) * (0.5 * INV_PI) * np.where(w[2] > 0, w[2], 0) ** exponent
+
+
+def square_to_triangle(u2):
+    """Barycentric coordinates (u, v), uniform over a triangle: Heitz 2019, "A Low-Distortion Map", eq. 4."""
+    first, second = u2
+    below = first < second
+    half = np.where(below, first, second) * 0.5
+    return np.stack((np.where(below, half, first - half), np.where(below, second - half, half)))
+
+
+def _about_axis(one_minus_cos, phi):
+    # sin^2 = (1 - cos)(1 + cos): no cancellation near the axis.
+    sin = np.sqrt(one_minus_cos * (2 - one_minus_cos))
+    return np.stack((sin * np.cos(phi), sin * np.sin(phi), 1 - one_minus_cos))

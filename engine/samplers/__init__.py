@@ -1,0 +1,5 @@
+"""The samplers: one file each, found by looking into this folder."""
+
+from ..registry import samplers as registry
+
+registry.discover(__name__, __path__)

@@ -1,0 +1,71 @@
+"""How to render: numbers and names, checked when they are made."""
+
+import math
+from dataclasses import dataclass
+
+from ..errors import SceneError
+
+
+@dataclass(frozen=True, kw_only=True)
+class Settings:
+    """How a scene is rendered. Raises SceneError naming the setting and its value.
+
+    width, height  full frame [px]
+    border         (x0, y0, x1, y1) [px], top left to bottom right, right and bottom excluded; empty: the whole frame
+    integrator     name of an integrator
+    samples        paths per pixel
+    max_depth      bounces: 0 is direct light only (Cycles' `max_bounces`, the lecture's recursion depth)
+    seed           any integer; equal seeds give equal noise
+    sampler        name of a sampler
+    pixel_filter   name of a pixel filter
+    filter_width   full width of the pixel filter [px]; the box is always one pixel wide
+    passes         names of passes, see the registry
+    tile_size      side of the square tiles [px]; 0: the whole frame; does not change the picture
+    threads        worker threads; 0: one per processor; does not change the picture
+    """
+
+    width: int = 512
+    height: int = 512
+    border: tuple = ()
+    integrator: str = "path"
+    samples: int = 64
+    max_depth: int = 8
+    seed: int = 0
+    sampler: str = "stratified"
+    pixel_filter: str = "blackman_harris"
+    filter_width: float = 1.5
+    passes: tuple = ("Combined",)
+    tile_size: int = 64
+    threads: int = 0
+
+    def __post_init__(self):
+        for name, lowest, highest in (
+            ("width", 1, 65536),
+            ("height", 1, 65536),
+            ("samples", 1, 2**24),
+            ("max_depth", 0, 2**16),
+            ("tile_size", 0, 65536),
+            ("threads", 0, 1024),
+        ):
+            value = getattr(self, name)
+            if isinstance(value, bool) or not isinstance(value, int) or not lowest <= value <= highest:
+                raise SceneError(f"setting {name} is {value!r}, allowed: whole numbers from {lowest} to {highest}")
+        if isinstance(self.seed, bool) or not isinstance(self.seed, int):
+            raise SceneError(f"setting seed is {self.seed!r}, allowed: whole numbers")
+        if not (isinstance(self.filter_width, (int, float)) and math.isfinite(self.filter_width) and 0.0 < self.filter_width <= 10.0):
+            raise SceneError(f"setting filter_width is {self.filter_width!r} px, allowed: above 0 up to 10")
+        object.__setattr__(self, "passes", tuple(self.passes))
+        object.__setattr__(self, "border", tuple(self.border))
+        self._check_border()
+
+    def _check_border(self):
+        if not self.border:
+            return
+        whole = len(self.border) == 4 and all(isinstance(edge, int) for edge in self.border)
+        if not (whole and 0 <= self.border[0] < self.border[2] <= self.width and 0 <= self.border[1] < self.border[3] <= self.height):
+            raise SceneError(f"setting border is {self.border!r}, allowed: (x0, y0, x1, y1) inside {self.width}x{self.height} px and not empty")
+
+    @property
+    def region(self):
+        """(x0, y0, x1, y1) [px] of what is rendered: the border, or the whole frame."""
+        return self.border or (0, 0, self.width, self.height)

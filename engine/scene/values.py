@@ -1,0 +1,129 @@
+"""The scene as values: frozen records of arrays, numbers and names, in metres and radiometric units.
+
+World space is right-handed with z up, as Blender's. Nothing here knows how it will be rendered.
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..arrays import frozen
+from ..errors import SceneError
+
+
+def _array(owner, name, dtype, shape):
+    try:
+        value = frozen(getattr(owner, name), dtype, shape, f"{type(owner).__name__.lower()} '{owner.name}'", name)
+    except ValueError as error:
+        raise SceneError(str(error)) from None
+    object.__setattr__(owner, name, value)
+
+
+def _check_indices(mesh, name, count):
+    indices = getattr(mesh, name)
+    if indices.size and not 0 <= indices.min() <= indices.max() < count:
+        raise SceneError(f"mesh '{mesh.name}': {name} reach from {indices.min()} to {indices.max()}, allowed: 0 to {count - 1}")
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Mesh:
+    """Triangles in object space; many objects may share one mesh.
+
+    vertices          (3, V) float32 or float64 [m]
+    triangles         (3, F) vertex indices, counter-clockwise seen from the front
+    normals           (3, K) shading normals, unit; none (3, 0): the mesh is flat
+    normal_indices    (3, F) which normal each corner of each triangle takes; none (3, 0): the mesh is flat
+    material_indices  (F,) which of the object's materials each triangle wears; none (0,): the first
+    Raises SceneError where shapes or indices do not fit.
+    """
+
+    name: str
+    vertices: np.ndarray
+    triangles: np.ndarray
+    normals: np.ndarray = field(default_factory=lambda: np.zeros((3, 0)))
+    normal_indices: np.ndarray = field(default_factory=lambda: np.zeros((3, 0)))
+    material_indices: np.ndarray = field(default_factory=lambda: np.zeros(0))
+
+    def __post_init__(self):
+        is_double = getattr(self.vertices, "dtype", None) == np.float64
+        _array(self, "vertices", np.float64 if is_double else np.float32, (3, None))
+        _array(self, "triangles", np.int32, (3, None))
+        _array(self, "normals", np.float32, (3, None))
+        _array(self, "normal_indices", np.int32, (3, None))
+        _array(self, "material_indices", np.int32, (None,))
+        _check_indices(self, "triangles", self.vertices.shape[1])
+        _check_indices(self, "normal_indices", self.normals.shape[1])
+        for name in ("normal_indices", "material_indices"):
+            if getattr(self, name).shape[-1] not in (0, self.triangles.shape[1]):
+                raise SceneError(f"mesh '{self.name}': {name} must have one entry for each of {self.triangles.shape[1]} triangles, or none")
+
+    @property
+    def is_smooth(self):
+        """Whether the mesh brings shading normals of its own."""
+        return self.normal_indices.shape[1] > 0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Material:
+    """What a surface does to light: the sum of its lobes, plus what it emits.
+
+    lobes     BSDF values (`Lambert`, `Phong`, ...); none: black
+    emission  radiance leaving both sides [W m^-2 sr^-1], linear Rec. 709
+    """
+
+    name: str
+    lobes: tuple = ()
+    emission: tuple = (0.0, 0.0, 0.0)
+
+    def __post_init__(self):
+        object.__setattr__(self, "lobes", tuple(self.lobes))
+        object.__setattr__(self, "emission", tuple(float(c) for c in self.emission))
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Object:
+    """A mesh placed in the world.
+
+    world_from_object  (4, 4) affine, float64
+    materials          one for each material index of the mesh; indices beyond the last take the last, none is black
+    """
+
+    name: str
+    mesh: Mesh
+    world_from_object: np.ndarray = field(default_factory=lambda: np.eye(4))
+    materials: tuple = ()
+
+    def __post_init__(self):
+        _array(self, "world_from_object", np.float64, (4, 4))
+        object.__setattr__(self, "materials", tuple(self.materials))
+
+
+@dataclass(frozen=True, kw_only=True)
+class World:
+    """What surrounds the scene: `radiance` from every direction [W m^-2 sr^-1]."""
+
+    name: str = "World"
+    radiance: tuple = (0.0, 0.0, 0.0)
+
+    def __post_init__(self):
+        object.__setattr__(self, "radiance", tuple(float(c) for c in self.radiance))
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Scene:
+    """Everything that a picture depends on, but for the `Settings`.
+
+    camera   a camera value (`PerspectiveCamera`)
+    objects  `Object` values
+    lights   light values (`PointLight`, `SpotLight`, `SunLight`, `AreaLight`)
+    """
+
+    camera: object
+    objects: tuple = ()
+    lights: tuple = ()
+    world: World = World()
+    name: str = "Scene"
+
+    def __post_init__(self):
+        object.__setattr__(self, "objects", tuple(self.objects))
+        object.__setattr__(self, "lights", tuple(self.lights))
