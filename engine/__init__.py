@@ -4,18 +4,19 @@ Build a `Scene` from arrays, ask `Requirements.of` what it needs, iterate `rende
 `render_image` for the whole picture, and write it with `write_exr`.
 """
 
+from . import bsdfs, cameras, filters, integrators, lights, passes, samplers  # noqa: F401 - fills the registries
 from .bsdfs.lambert import Lambert
 from .bsdfs.phong import Phong
 from .cameras.perspective import PerspectiveCamera
 from .errors import FileError, GlanzError, SceneError
-from .io.exr import write_exr
-from .io.scene_file import read_scene, write_scene
+# from .io.exr import write_exr
+# from .io.scene_file import read_scene, write_scene
 from .lights.area import AreaLight
 from .lights.point import PointLight
 from .lights.spot import SpotLight
 from .lights.sun import SunLight
-from .registry import filters, integrators, passes, samplers
-from .render import Image, Progress, Tile, render, render_image
+from .registry import FILTERS, INTEGRATORS, PASSES, SAMPLERS
+from .rendering import Image, Progress, Tile, render, render_image
 from .requirements import Requirements
 from .scene import Material, Mesh, Object, Scene, Settings, World
 
@@ -24,6 +25,6 @@ __version__ = "0.1.0"
 __all__ = [
     "AreaLight", "FileError", "GlanzError", "Image", "Lambert", "Material", "Mesh", "Object", "PerspectiveCamera",
     "Phong", "PointLight", "Progress", "Requirements", "Scene", "SceneError", "Settings", "SpotLight", "SunLight",
-    "Tile", "World", "filters", "integrators", "passes", "read_scene", "render", "render_image", "samplers",
+    "Tile", "World", "FILTERS", "INTEGRATORS", "PASSES", "read_scene", "render", "render_image", "SAMPLERS",
     "write_exr", "write_scene",
 ]

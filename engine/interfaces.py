@@ -19,6 +19,9 @@ class Bsdf(Protocol):
     def row(self):
         """The parameters as {column: number or 3-tuple}."""
 
+    def check(self, owner):
+        """Raises SceneError, naming the material `owner`, for parameters out of range."""
+
     def albedo(self):
         """An upper bound, and the usual share, of reflected light (r, g, b), by which lobes are chosen."""
 
@@ -37,13 +40,25 @@ class Bsdf(Protocol):
 
 @runtime_checkable
 class Light(Protocol):
-    """A light object that is no mesh."""
+    """A light object that is no mesh; it gives light and casts no shadow.
+
+    `is_visible` (bool) is a field of every light value: camera rays see it. Scattered rays always do.
+    """
 
     key: str
     label: str
 
     def row(self, frame):
         """The parameters in render space (see world.frame), as {column: number or 3-tuple}."""
+
+    def power(self):
+        """Radiant flux [W], (r, g, b), or a bound of it, by which lights are chosen."""
+
+    def check(self):
+        """Raises SceneError, naming the light, for parameters out of range."""
+
+    def has_extent(self):
+        """Whether rays can meet the light at all."""
 
     @staticmethod
     def sample(k, p, u2):
@@ -84,3 +99,34 @@ class Filter(Protocol):
     @staticmethod
     def offset(u2, width):
         """Offsets from the pixel's centre [px], (2, N), distributed as the filter of full width `width` [px]."""
+
+
+@runtime_checkable
+class Pass(Protocol):
+    """One result of a render: as many channels as `channels` has letters.
+
+    at_first_hit  `values(plan, surface)` (C, M) is recorded where camera rays hit; elsewhere it is `background`
+    is_average    a pixel is the mean of its samples; else its first sample
+    """
+
+    key: str
+    label: str
+    channels: str
+    at_first_hit: bool
+    is_average: bool
+
+    @staticmethod
+    def gather(radiance, first_hits):
+        """Channels (C, slots) from the paths' radiance (3, slots) and what was recorded at first hits (C, slots)."""
+
+
+@runtime_checkable
+class Integrator(Protocol):
+    """What an integrator pushes onto the stack of batches; everything else is the same loop for all of them."""
+
+    key: str
+    label: str
+
+    @staticmethod
+    def scatter(plan, rays, surface, reflection):
+        """The batches of rays, a tuple, that go on from where `rays` met `surface`."""

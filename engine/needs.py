@@ -1,18 +1,25 @@
-"""The features that a scene may ask for; what nobody asks for is not run."""
+"""The features that a scene may ask for; what nobody asks for is not run.
 
-from enum import Enum
+Plug-ins add their own: a scene that uses the BSDF `phong` needs "bsdf phong".
+"""
+
+GEOMETRY = "geometry"
+SMOOTH_NORMALS = "smooth normals"
+EMISSIVE_MESHES = "emissive meshes"
+LIGHT_CHOICE = "light choice"
+LIGHT_HITS = "light hits"
+BACKGROUND = "background"
+
+MEANING = {
+    GEOMETRY: "triangles to intersect",
+    SMOOTH_NORMALS: "shading normals interpolated across triangles",
+    EMISSIVE_MESHES: "meshes that emit, sampled by shadow rays and met by scattered ones",
+    LIGHT_CHOICE: "more than one light to choose from",
+    LIGHT_HITS: "light objects with a size, met by rays",
+    BACKGROUND: "light from the world",
+}
 
 
-class Need(Enum):
-    """One feature; its value says what it is for."""
-
-    GEOMETRY = "triangles to intersect"
-    SMOOTH_NORMALS = "shading normals interpolated across triangles"
-    LAMBERT = "ideal diffuse reflection"
-    PHONG = "glossy reflection by a Phong lobe"
-    LIGHTS = "light objects, sampled by shadow rays"
-    EMISSIVE_MESHES = "meshes that emit, sampled by shadow rays"
-    LIGHT_CHOICE = "more than one light to choose from"
-    LIGHT_HITS = "light objects with a size, met by scattered rays"
-    BACKGROUND = "light from the world"
-    FILTER = "a pixel filter wider than the pixel"
+def of_plugin(kind, plugin):
+    """The need for a plug-in class of the registry `kind`."""
+    return f"{kind} {plugin.key}"

@@ -30,10 +30,10 @@ class Registry(dict):
         return self
 
 
-bsdfs = Registry("BSDF")
-lights = Registry("light")
-cameras = Registry("camera")
-samplers = Registry("sampler")
-filters = Registry("pixel filter")
-integrators = Registry("integrator")
-passes = Registry("pass")
+BSDFS = Registry("BSDF")
+LIGHTS = Registry("light")
+CAMERAS = Registry("camera")
+SAMPLERS = Registry("sampler")
+FILTERS = Registry("pixel filter")
+INTEGRATORS = Registry("integrator")
+PASSES = Registry("pass")

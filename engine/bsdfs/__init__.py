@@ -1,5 +1,5 @@
 """The bsdfs: one file each, found by looking into this folder."""
 
-from ..registry import bsdfs as registry
+from ..registry import BSDFS as registry
 
 registry.discover(__name__, __path__)

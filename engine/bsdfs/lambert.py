@@ -27,6 +27,9 @@ class Lambert:
     def albedo(self):
         return self.reflectance
 
+    def check(self, owner):
+        pass
+
     @staticmethod
     def eval(k, n, wo, wi):
         return k.reflectance * (INV_PI * (dot(n, wi) > 0))

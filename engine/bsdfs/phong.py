@@ -11,13 +11,16 @@ below the surface carry nothing and still count.
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from ..constants import INV_PI
+from ..errors import SceneError
 from ..maths.frames import to_world
 from ..maths.vectors import cosine_power, dot, reflect
 from ..maths.warps import square_to_cosine_power
 from . import registry
+
+
+LARGEST_EXPONENT = 1e6
+"""A lobe 0.1 degrees wide; float32 directions cannot carry a sharper one."""
 
 
 @registry.add
@@ -36,6 +39,10 @@ class Phong:
 
     def albedo(self):
         return self.reflectance
+
+    def check(self, owner):
+        if not 0 <= self.exponent <= LARGEST_EXPONENT:
+            raise SceneError(f"material '{owner}': Phong exponent is {self.exponent}, allowed: 0 to {LARGEST_EXPONENT:g}")
 
     @staticmethod
     def eval(k, n, wo, wi):

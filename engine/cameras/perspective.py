@@ -37,6 +37,11 @@ class PerspectiveCamera:
         top = math.tan(0.5 * fov)
         return cls(name=name, world_from_camera=matrix, window=(-top * aspect, top * aspect, -top, top))
 
+    def check(self):
+        left, right, bottom, top = self.window
+        if not (left < right and bottom < top and math.isfinite(right - left) and math.isfinite(top - bottom)):
+            raise SceneError(f"camera '{self.name}': window is {self.window}, allowed: finite, left < right and bottom < top")
+
     @property
     def position(self):
         """World space [m], (3,) float64: what the world is centred on."""

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..constants import PI
+from ..errors import SceneError
 from ..maths.vectors import dot
 from ..maths.warps import square_to_disk
 from . import registry
@@ -22,6 +23,7 @@ class AreaLight:
     radiance          [W m^-2 sr^-1], (r, g, b), on the axis
     spread            full angle [rad] in (0, pi] into which it shines; below pi, radiance falls with the angle as
                       behind a grid: max(tan a - tan theta, 0) / (tan a - a), a = spread / 2, so the flux stays
+    is_visible        camera rays see the shape
     """
 
     key = "area"
@@ -34,6 +36,7 @@ class AreaLight:
     is_ellipse: bool = False
     radiance: tuple = (1.0, 1.0, 1.0)
     spread: float = math.pi
+    is_visible: bool = False
 
     def _axes(self):
         matrix = np.asarray(self.world_from_light, np.float64)
@@ -67,6 +70,15 @@ class AreaLight:
     def power(self):
         """Radiant flux [W], (r, g, b): pi A L."""
         return tuple(PI * self.area() * c for c in self.radiance)
+
+    def check(self):
+        if not (self.size_x >= 0 and self.size_y >= 0 and 0 < self.spread <= PI):
+            raise SceneError(
+                f"light '{self.name}': size {self.size_x} x {self.size_y} m, spread {self.spread} rad; allowed: from 0 on, above 0 to pi"
+            )
+
+    def has_extent(self):
+        return self.area() > 0
 
     @staticmethod
     def sample(k, p, u2):

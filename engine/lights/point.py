@@ -15,6 +15,7 @@ class PointLight:
     intensity     radiant intensity [W sr^-1], (r, g, b)
     radius        of the bulb [m]; 0: a point
     soft_falloff  the bulb is a disk that turns to face whatever it lights (Blender's default); else a sphere
+    is_visible    camera rays see the bulb (Blender's lights are invisible to the camera by default)
     """
 
     key = "point"
@@ -25,6 +26,7 @@ class PointLight:
     intensity: tuple = (1.0, 1.0, 1.0)
     radius: float = 0.0
     soft_falloff: bool = True
+    is_visible: bool = False
 
     def row(self, frame):
         return bulbs.row(frame, self)
@@ -32,6 +34,12 @@ class PointLight:
     def power(self):
         """Radiant flux [W], (r, g, b): 4 pi I."""
         return bulbs.power(self)
+
+    def check(self):
+        bulbs.check(self)
+
+    def has_extent(self):
+        return self.radius > 0
 
     @staticmethod
     def sample(k, p, u2):

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ..errors import SceneError
 from ..maths import bulbs
 from ..maths.vectors import dot, normalize
 from . import registry
@@ -21,6 +22,7 @@ class SpotLight:
     blend             share of the cone over which the edge fades, 0: hard, 1: from the axis on
     radius            of the bulb [m]; 0: a point
     soft_falloff      the bulb is a disk facing whatever it lights (Blender's default); else a sphere
+    is_visible        camera rays see the bulb
 
     The edge is Blender's: smoothstep((cos theta - cos(angle / 2)) / ((1 - cos(angle / 2)) blend)).
     """
@@ -35,6 +37,7 @@ class SpotLight:
     blend: float = 0.15
     radius: float = 0.0
     soft_falloff: bool = True
+    is_visible: bool = False
 
     @property
     def position(self):
@@ -59,6 +62,14 @@ class SpotLight:
         """An upper bound of the radiant flux [W], (r, g, b), by which lights are chosen."""
         share = 0.5 * (1 - math.cos(0.5 * self.angle))
         return tuple(share * c for c in bulbs.power(self))
+
+    def check(self):
+        bulbs.check(self)
+        if not (0 < self.angle <= math.pi and 0 <= self.blend <= 1):
+            raise SceneError(f"light '{self.name}': angle {self.angle} rad, blend {self.blend}; allowed: 0 to pi, 0 to 1")
+
+    def has_extent(self):
+        return self.radius > 0
 
     @staticmethod
     def sample(k, p, u2):

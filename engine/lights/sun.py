@@ -3,13 +3,14 @@
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from ..constants import PI
+from ..errors import SceneError
 from ..maths.frames import to_world
 from ..maths.vectors import dot
 from ..maths.warps import square_to_cone, square_to_cone_pdf
 from . import registry
-
-import numpy as np
 
 
 @registry.add
@@ -20,6 +21,7 @@ class SunLight:
     towards     unit vector to the middle of the disk, world space
     irradiance  on a surface that faces it [W m^-2], (r, g, b)
     angle       angular diameter [rad], in [0, pi]; 0: a direction
+    is_visible  camera rays see the disk
 
     The disk has the radiance E / (pi sin^2(angle / 2)).
     """
@@ -31,6 +33,7 @@ class SunLight:
     towards: tuple = (0.0, 0.0, 1.0)
     irradiance: tuple = (1.0, 1.0, 1.0)
     angle: float = 0.0
+    is_visible: bool = False
 
     def row(self, frame):
         half = 0.5 * self.angle
@@ -46,6 +49,13 @@ class SunLight:
     def power(self):
         """The flux through a unit disk [W], (r, g, b); the scene's size comes in where lights are compared."""
         return tuple(PI * c for c in self.irradiance)
+
+    def check(self):
+        if not 0 <= self.angle <= math.pi:
+            raise SceneError(f"light '{self.name}': angle is {self.angle} rad, allowed: 0 to pi")
+
+    def has_extent(self):
+        return self.angle > 0
 
     @staticmethod
     def sample(k, p, u2):

@@ -9,6 +9,7 @@ Both pass into the plain point, pdf = inf and E = I / d^2, as r -> 0, so a radiu
 import numpy as np
 
 from ..constants import PI
+from ..errors import SceneError
 from .frames import to_world
 from .vectors import dot, length, normalize
 from .warps import square_to_cone, square_to_cone_pdf, square_to_disk
@@ -22,6 +23,12 @@ def row(frame, light):
         "intensity": tuple(c * frame.scale**2 for c in light.intensity),
         "soft": float(light.soft_falloff),
     }
+
+
+def check(light):
+    """Raises SceneError for a radius that no bulb has."""
+    if not light.radius >= 0:
+        raise SceneError(f"light '{light.name}': radius is {light.radius} m, allowed: from 0 on")
 
 
 def power(light):

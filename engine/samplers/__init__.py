@@ -1,5 +1,5 @@
 """The samplers: one file each, found by looking into this folder."""
 
-from ..registry import samplers as registry
+from ..registry import SAMPLERS as registry
 
 registry.discover(__name__, __path__)

@@ -1,0 +1,23 @@
+"""Which way surfaces face."""
+
+from . import registry
+
+
+@registry.add
+class Normal:
+    """The shading normal in world space, on the viewer's side, averaged; 0 where nothing is met."""
+
+    key = "Normal"
+    label = "Normal"
+    channels = "XYZ"
+    at_first_hit = True
+    is_average = True
+    background = 0.0
+
+    @staticmethod
+    def values(plan, surface):
+        return surface.ns
+
+    @staticmethod
+    def gather(radiance, first_hits):
+        return first_hits

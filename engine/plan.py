@@ -1,0 +1,79 @@
+"""From what a scene needs to what is run: tuples of stages, empty for what is absent."""
+
+from dataclasses import dataclass
+
+from . import needs
+from .arrays import Columns, columns
+from .integrators.path import one_of_the_lobes, only_lobe
+from .lights.triangle import TriangleLight
+from .registry import FILTERS, INTEGRATORS, PASSES, SAMPLERS
+from .scene.settings import Settings
+from .wavefront.direct import add_direct_light, one_of_the_lights, only_light
+from .wavefront.emission import add_emission
+from .wavefront.escape import add_background, add_light_hits
+from .wavefront.numbers import Numbers
+from .world.compile import CompiledWorld, compile_world
+from .world.interaction import flat_normals, smooth_normals
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Plan:
+    """Everything that stays the same while a picture is rendered.
+
+    on_rays     stages (plan, rays, hits, film) for every batch: light met along the way
+    on_surface  stages (plan, rays, surface, reflection, film) at every surface: direct light
+    first_hits  the passes that record where camera rays hit
+    last_depth  the depth of the last rays that are traced
+    The other functions are choices that cost nothing where there is nothing to choose.
+    """
+
+    settings: Settings
+    world: CompiledWorld
+    numbers: Numbers
+    filter: type
+    camera: type
+    camera_k: Columns
+    emitters: Columns
+    on_rays: tuple
+    on_surface: tuple
+    first_hits: tuple
+    passes: tuple
+    scatter: object
+    shading_normals: object
+    choose_light: object
+    choose_lobe: object
+    last_depth: int
+
+    @classmethod
+    def of(cls, scene, settings, requirements):
+        """Compile `scene` and keep what `requirements` ask for."""
+        bsdfs = requirements.plugins("bsdf")
+        smooth = needs.SMOOTH_NORMALS in requirements
+        world = compile_world(scene, bsdfs, smooth)
+        can_reflect = bool(world.materials.lobes)
+        on_rays = (
+            *((add_background,) if needs.BACKGROUND in requirements else ()),
+            *((add_light_hits,) if needs.LIGHT_HITS in requirements else ()),
+            *((add_emission,) if needs.EMISSIVE_MESHES in requirements and world.triangles.emitter.size else ()),
+        )
+        on_surface = (add_direct_light,) if can_reflect and not world.lights.is_empty else ()
+        chosen = tuple(PASSES[key] for key in settings.passes)
+        return cls(
+            settings=settings,
+            world=world,
+            numbers=Numbers(SAMPLERS[settings.sampler], settings.samples),
+            filter=FILTERS[settings.pixel_filter],
+            camera=type(scene.camera),
+            camera_k=columns([scene.camera.row(settings.width, settings.height)]),
+            emitters=next((g.k for g in world.lights.groups if g.light is TriangleLight), Columns()),
+            on_rays=on_rays,
+            on_surface=on_surface,
+            first_hits=tuple(p for p in chosen if p.at_first_hit),
+            passes=chosen,
+            scatter=INTEGRATORS[settings.integrator].scatter,
+            shading_normals=smooth_normals if smooth else flat_normals,
+            choose_light=one_of_the_lights if needs.LIGHT_CHOICE in requirements else only_light,
+            choose_lobe=one_of_the_lobes if len(world.materials.lobes) > 1 else only_lobe,
+            # Scattered rays that could find no light need not be traced after the last bounce.
+            last_depth=settings.max_depth + bool(on_rays) if can_reflect else 0,
+        )

@@ -1,0 +1,178 @@
+"""From a scene to pictures: tiles as they finish, from threads over the frame."""
+
+import os
+import threading
+from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .plan import Plan
+from .requirements import Requirements
+from .scene.validate import validate
+from .wavefront.camera_rays import camera_rays
+from .wavefront.film import Film
+from .wavefront.loop import trace
+
+LANES = 2**16
+"""Paths in a batch: enough to hide Python, few enough for the cache."""
+POLL_SECONDS = 0.1
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Tile:
+    """A finished rectangle: x, y [px] from the top left of the full frame; passes {name: (height, width, channels) float32}."""
+
+    x: int
+    y: int
+    width: int
+    height: int
+    passes: dict
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Progress:
+    """What has happened since the last one: the share `done` in [0, 1], tiles that finished, warnings that came up."""
+
+    done: float
+    tiles: tuple = ()
+    warnings: tuple = ()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Image:
+    """A picture: passes {name: (height, width, channels) float32}, row 0 at the top; metadata {str: str}."""
+
+    width: int
+    height: int
+    passes: dict
+    metadata: dict = field(default_factory=dict)
+    warnings: tuple = ()
+
+
+def render(scene, settings):
+    """Render, yielding `Progress` at least ten times a second until everything is done.
+
+    To cancel is to stop iterating: closing the generator stops the threads within a batch's bounce. The picture
+    depends neither on threads, tiles nor border. Raises SceneError for what cannot be rendered.
+    """
+    scene, warnings = validate(scene, settings)
+    yield Progress(0.0, warnings=warnings)
+    plan = Plan.of(scene, settings, Requirements.of(scene, settings))
+    yield Progress(0.0, warnings=plan.world.warnings)
+    yield from render_plan(plan)
+
+
+def render_plan(plan):
+    """`render` for a `Plan` that is made already."""
+    settings = plan.settings
+    tiles = _tiles(settings)
+    work = _Work(sum(w * h for _, _, w, h in tiles) * settings.samples)
+    workers = min(settings.threads or os.cpu_count() or 1, len(tiles))
+    with ThreadPoolExecutor(workers, thread_name_prefix="glanz") as pool:
+        try:
+            pending = {pool.submit(_render_tile, plan, tile, work) for tile in tiles}
+            while pending:
+                finished, pending = wait(pending, POLL_SECONDS, FIRST_COMPLETED)
+                yield Progress(work.done, tuple(future.result() for future in finished), work.take_warnings())
+        finally:
+            work.cancelled.set()
+            pool.shutdown(wait=True, cancel_futures=True)
+
+
+def render_image(scene, settings, on_progress=None):
+    """The whole `Image`; `on_progress`, if given, is called with each `Progress`."""
+    x0, y0, x1, y1 = settings.region
+    passes, warnings = {}, []
+    for progress in render(scene, settings):
+        warnings += progress.warnings
+        for tile in progress.tiles:
+            for name, values in tile.passes.items():
+                if name not in passes:
+                    passes[name] = np.zeros((y1 - y0, x1 - x0, values.shape[2]), np.float32)
+                passes[name][tile.y - y0 : tile.y - y0 + tile.height, tile.x - x0 : tile.x - x0 + tile.width] = values
+        if on_progress:
+            on_progress(progress)
+    return Image(x1 - x0, y1 - y0, passes, metadata(scene, settings), tuple(warnings))
+
+
+def metadata(scene, settings):
+    """What a file should say about how its picture was made, {str: str}."""
+    return {
+        "glanz.scene": scene.name,
+        "glanz.camera": scene.camera.name,
+        "glanz.integrator": settings.integrator,
+        "glanz.sampler": settings.sampler,
+        "glanz.samples": str(settings.samples),
+        "glanz.max_depth": str(settings.max_depth),
+        "glanz.seed": str(settings.seed),
+        "glanz.pixel_filter": settings.pixel_filter,
+        "glanz.requirements": ", ".join(Requirements.of(scene, settings).needs),
+    }
+
+
+class _Work:
+    """What the threads of one render share."""
+
+    def __init__(self, paths):
+        self.cancelled = threading.Event()
+        self._lock = threading.Lock()
+        self._paths = paths
+        self._finished = 0
+        self._bad_samples = 0
+
+    def finish(self, paths):
+        with self._lock:
+            self._finished += paths
+
+    def count_bad(self, samples):
+        with self._lock:
+            self._bad_samples += samples
+
+    @property
+    def done(self):
+        return self._finished / self._paths
+
+    def take_warnings(self):
+        with self._lock:
+            bad, self._bad_samples = self._bad_samples, 0
+        return (f"{bad} samples were not finite and count as black",) if bad else ()
+
+
+def _tiles(settings):
+    """(x, y, width, height) of all tiles, from the middle outwards."""
+    x0, y0, x1, y1 = settings.region
+    size = settings.tile_size or max(x1 - x0, y1 - y0)
+    tiles = [(x, y, min(size, x1 - x), min(size, y1 - y)) for y in range(y0, y1, size) for x in range(x0, x1, size)]
+    cx, cy = 0.5 * (x0 + x1), 0.5 * (y0 + y1)
+    return sorted(tiles, key=lambda tile: max(abs(tile[0] + 0.5 * tile[2] - cx), abs(tile[1] + 0.5 * tile[3] - cy)))
+
+
+def _render_tile(plan, tile, work):
+    x, y, width, height = tile
+    film = Film(width * height, plan.passes)
+    py, px = np.divmod(np.arange(width * height), width)
+    px, py = px + x, py + y
+    for window, first, count in _batches(width * height, plan.settings.samples):
+        film.open(count, window)
+        rays = camera_rays(plan, px[window], py[window], first, count)
+        if not trace(plan, rays, film, work.cancelled.is_set):
+            return None
+        film.close(is_first=first == 0)
+        work.finish(count * (window.stop - window.start))
+    work.count_bad(film.bad_samples)
+    passes = {
+        name: np.ascontiguousarray(values.reshape(-1, height, width).transpose(1, 2, 0))
+        for name, values in film.result(plan.settings.samples).items()
+    }
+    return Tile(x, y, width, height, passes)
+
+
+def _batches(pixels, samples):
+    """(window of pixels, first sample, samples) of batches of at most LANES paths, all samples of a window in order."""
+    at_once = min(pixels, LANES)
+    count = max(1, LANES // at_once)
+    for start in range(0, pixels, at_once):
+        window = slice(start, min(start + at_once, pixels))
+        for first in range(0, samples, count):
+            yield window, first, min(count, samples - first)

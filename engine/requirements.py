@@ -1,0 +1,84 @@
+"""What a scene asks for, and which of its parts asks: a pure function of scene and settings."""
+
+from dataclasses import dataclass
+
+
+from . import needs
+from .registry import BSDFS, CAMERAS, FILTERS, INTEGRATORS, LIGHTS, PASSES, SAMPLERS
+
+
+@dataclass(frozen=True)
+class Requirements:
+    """`needs`: {need: names of the objects, materials, lights or settings that ask for it}, in a fixed order.
+
+    `in` asks whether something is needed; `str()` is a table for people, `as_dict()` for machines.
+    """
+
+    needs: dict
+
+    @classmethod
+    def of(cls, scene, settings):
+        """The requirements of `scene` rendered with `settings`."""
+        found = {}
+
+        def ask(need, name):
+            found.setdefault(need, {})[name] = True
+
+        ask(needs.of_plugin("integrator", INTEGRATORS[settings.integrator]), "settings")
+        ask(needs.of_plugin("sampler", SAMPLERS[settings.sampler]), "settings")
+        ask(needs.of_plugin("filter", FILTERS[settings.pixel_filter]), "settings")
+        for key in settings.passes:
+            ask(needs.of_plugin("pass", PASSES[key]), "settings")
+        ask(needs.of_plugin("camera", type(scene.camera)), scene.camera.name)
+        for o in scene.objects:
+            if not o.mesh.triangles.shape[1]:
+                continue
+            ask(needs.GEOMETRY, o.name)
+            if o.mesh.is_smooth:
+                ask(needs.SMOOTH_NORMALS, o.name)
+            for material in o.materials:
+                for lobe in material.lobes:
+                    if any(lobe.albedo()):
+                        ask(needs.of_plugin("bsdf", type(lobe)), material.name)
+                if any(material.emission):
+                    ask(needs.EMISSIVE_MESHES, o.name)
+        shining = [light for light in scene.lights if any(light.power())]
+        for light in shining:
+            ask(needs.of_plugin("light", type(light)), light.name)
+            if light.has_extent():
+                ask(needs.LIGHT_HITS, light.name)
+        emitters = tuple(found.get(needs.EMISSIVE_MESHES, ()))
+        if len(shining) > 1 or emitters:
+            for name in (*(light.name for light in shining), *emitters):
+                ask(needs.LIGHT_CHOICE, name)
+        if any(scene.world.radiance):
+            ask(needs.BACKGROUND, scene.world.name)
+        return cls({need: tuple(names) for need, names in found.items()})
+
+    @classmethod
+    def everything(cls, scene, settings):
+        """As if every feature were asked for: what an engine does that does not look first. For tests and benchmarks."""
+        asked = dict(cls.of(scene, settings).needs)
+        every = [*needs.MEANING, *(needs.of_plugin("bsdf", p) for p in BSDFS.values()), *(needs.of_plugin("light", p) for p in LIGHTS.values())]
+        return cls({**asked, **{need: asked.get(need, ("everything",)) for need in every}})
+
+    def __contains__(self, need):
+        return need in self.needs
+
+    def plugins(self, kind):
+        """The plug-in classes of `kind` ("bsdf", "light", ...) that are needed, in the order of their registry."""
+        registry = {"bsdf": BSDFS, "light": LIGHTS, "pass": PASSES, "camera": CAMERAS}[kind]
+        return tuple(plugin for plugin in registry.values() if needs.of_plugin(kind, plugin) in self)
+
+    def as_dict(self):
+        """{need: [names]}, ready for JSON."""
+        return {need: list(names) for need, names in self.needs.items()}
+
+    def __str__(self):
+        width = max(map(len, self.needs), default=0)
+        return "\n".join(f"{need:<{width}}  {_shortened(names)}" for need, names in self.needs.items())
+
+
+def _shortened(names, most=4):
+    rest = len(names) - most
+    return ", ".join(names[:most]) + (f" and {rest} more" if rest > 0 else "")

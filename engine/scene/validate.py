@@ -1,0 +1,84 @@
+"""The one place where scenes are checked: what cannot be rendered is named, left out or refused."""
+
+import dataclasses
+import math
+
+import numpy as np
+
+from ..errors import SceneError
+from ..registry import BSDFS, CAMERAS, FILTERS, INTEGRATORS, LIGHTS, PASSES, SAMPLERS
+
+
+def validate(scene, settings):
+    """(scene, warnings): the scene without what cannot be rendered, and a line for each thing that was changed.
+
+    Raises SceneError where no picture is possible: no camera, a camera that is not finite, unknown plug-ins.
+    """
+    for registry, key in (
+        (INTEGRATORS, settings.integrator),
+        (SAMPLERS, settings.sampler),
+        (FILTERS, settings.pixel_filter),
+        *((PASSES, key) for key in settings.passes),
+    ):
+        if key not in registry:
+            raise SceneError(f"unknown {registry.kind} '{key}'; known: {', '.join(registry)}")
+    _check_camera(scene)
+    warnings = []
+    objects = tuple(checked for o in scene.objects if (checked := _check_object(o, warnings)))
+    kept_lights = tuple(light for light in scene.lights if _check_light(light, warnings))
+    if not _is_colour(scene.world.radiance):
+        raise SceneError(f"world '{scene.world.name}': radiance is {scene.world.radiance}, allowed: three finite numbers from 0 on")
+    return dataclasses.replace(scene, objects=objects, lights=kept_lights), tuple(warnings)
+
+
+def _check_camera(scene):
+    camera = scene.camera
+    if camera is None:
+        raise SceneError(f"scene '{scene.name}' has no camera")
+    if type(camera) not in CAMERAS.values():
+        raise SceneError(f"scene '{scene.name}': {type(camera).__name__} is not a camera")
+    if not np.isfinite(camera.world_from_camera).all() or not np.linalg.det(camera.world_from_camera[:3, :3]):
+        raise SceneError(f"camera '{camera.name}': its transform is not finite or flattens space")
+    camera.check()
+
+
+def _check_object(o, warnings):
+    if not np.isfinite(o.world_from_object).all():
+        warnings.append(f"object '{o.name}' is left out: its transform is not finite")
+        return None
+    for material in o.materials:
+        _check_material(material)
+    return o
+
+
+def _check_material(material):
+    if not _is_colour(material.emission):
+        raise SceneError(f"material '{material.name}': emission is {material.emission}, allowed: three finite numbers from 0 on")
+    total = np.zeros(3)
+    for lobe in material.lobes:
+        if type(lobe) not in BSDFS.values():
+            raise SceneError(f"material '{material.name}': {type(lobe).__name__} is not a BSDF")
+        if not _is_colour(lobe.albedo()):
+            raise SceneError(f"material '{material.name}': {lobe.key} reflectance is {lobe.albedo()}, allowed: three finite numbers from 0 on")
+        lobe.check(material.name)
+        total += lobe.albedo()
+    if (total > 1 + 1e-6).any():
+        raise SceneError(f"material '{material.name}' reflects {tuple(total.round(6))}, more than it receives: scale its reflectances to a sum of at most 1")
+
+
+def _check_light(light, warnings):
+    if type(light) not in LIGHTS.values():
+        raise SceneError(f"{type(light).__name__} is not a light")
+    numbers = [getattr(light, f.name) for f in dataclasses.fields(light) if f.name != "name"]
+    if not all(np.isfinite(np.asarray(value, np.float64)).all() for value in numbers):
+        warnings.append(f"light '{light.name}' is left out: one of its values is not finite")
+        return False
+    if min(light.power()) < 0:
+        warnings.append(f"light '{light.name}' is left out: it would take light away")
+        return False
+    light.check()
+    return True
+
+
+def _is_colour(values):
+    return len(values) == 3 and all(math.isfinite(c) and c >= 0 for c in values)

@@ -1,0 +1,33 @@
+"""The first rays of paths: through the film, filtered."""
+
+import numpy as np
+
+from ..maths.hashing import mix, mix_int
+from .numbers import Dimension
+from .records import Rays
+
+
+def camera_rays(plan, px, py, first, count):
+    """`Rays` for samples first .. first + count - 1 of the pixels px, py (P,) int: slot = sample * P + pixel.
+
+    A pixel is known by its place in the full frame, so that a border renders to the pixels of the whole picture.
+    """
+    settings = plan.settings
+    key = mix((py * settings.width + px).astype(np.uint32) ^ mix_int(settings.seed))
+    n = count * px.size
+    rays = Rays(
+        o=np.zeros((3, n), np.float32),
+        d=np.zeros((3, n), np.float32),
+        beta=np.ones((3, n), np.float32),
+        pdf=np.zeros(0, np.float32),
+        slot=np.arange(n),
+        key=np.tile(key, count),
+        sample=np.repeat(np.arange(first, first + count, dtype=np.uint32), px.size),
+        depth=0,
+    )
+    dx, dy = plan.filter.offset(plan.numbers.two(rays, Dimension.FILTER), settings.filter_width)
+    # Measured from the middle of the frame, where half pixels are exact.
+    x = np.tile((px + (0.5 - 0.5 * settings.width)).astype(np.float32), count) + dx
+    y = np.tile((py + (0.5 - 0.5 * settings.height)).astype(np.float32), count) + dy
+    rays.o[...], rays.d[...] = plan.camera.rays(plan.camera_k, x, y)
+    return rays

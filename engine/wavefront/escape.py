@@ -1,0 +1,25 @@
+"""Light that rays find beyond or before the geometry."""
+
+import numpy as np
+
+from .mis import power_heuristic
+
+
+def add_background(plan, rays, hits, film):
+    """Rays that met nothing see the world. It is found by scattered rays alone, so it needs no weight."""
+    lanes = np.nonzero(hits.prim < 0)[0]
+    film.add(rays.slot[lanes], rays.beta[:, lanes] * plan.world.background)
+
+
+def add_light_hits(plan, rays, hits, film):
+    """Light objects nearer than the geometry; they do not hide what is behind them."""
+    for lamp in plan.world.lights.hittable if rays.depth else plan.world.lights.visible:
+        t, L, pdf = lamp.light.hit(lamp.k, rays.o, rays.d)
+        lanes = np.nonzero(t < hits.t)[0]
+        if not lanes.size:
+            continue
+        L = np.broadcast_to(L, rays.d.shape)[:, lanes] * rays.beta[:, lanes]
+        if rays.depth:
+            light_pdf = np.broadcast_to(pdf, t.shape)[lanes] * np.float32(lamp.probability)
+            L *= power_heuristic(rays.pdf[lanes], light_pdf)
+        film.add(rays.slot[lanes], L)

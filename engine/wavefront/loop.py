@@ -1,0 +1,39 @@
+"""The one loop: a stack of batches, until it is empty."""
+
+import numpy as np
+
+from ..world.interaction import interact
+
+
+def trace(plan, rays, film, is_cancelled=lambda: False):
+    """Follow `rays` and all that the integrator makes of them; light goes into `film`. Returns False if cancelled.
+
+    The stack is depth first, so that an integrator that branches holds few batches at a time.
+    """
+    world = plan.world
+    stack = [rays]
+    while stack:
+        if is_cancelled():
+            return False
+        rays = stack.pop()
+        hits = world.accel.closest(rays.o, rays.d)
+        for add_light in plan.on_rays:
+            add_light(plan, rays, hits, film)
+        if rays.depth > plan.settings.max_depth:
+            continue
+        lanes = np.nonzero(hits.prim >= 0)[0]
+        if lanes.size < hits.prim.size:
+            rays, hits = rays.take(lanes), hits.take(lanes)
+        if not lanes.size:
+            continue
+        surface = interact(world.triangles, plan.shading_normals, rays.d, hits)
+        for p in plan.first_hits if rays.depth == 0 else ():
+            film.first_hits[p.key][:, rays.slot] = p.values(plan, surface)
+        if not world.materials.lobes:
+            continue
+        reflection = world.materials.at(surface.material)
+        for add_light in plan.on_surface:
+            add_light(plan, rays, surface, reflection, film)
+        if rays.depth < plan.last_depth:
+            stack.extend(plan.scatter(plan, rays, surface, reflection))
+    return True

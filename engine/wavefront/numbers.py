@@ -1,0 +1,36 @@
+"""Which random number is used for what: dimensions have names, so that one feature does not reshuffle the others."""
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+
+class Dimension(IntEnum):
+    """Numbers for one path, and for each of its bounces (from LIGHT_CHOICE on)."""
+
+    FILTER = 0
+    LENS = 1
+    TIME = 2
+    LIGHT_CHOICE = 8
+    LIGHT_POINT = 9
+    LOBE = 10
+    DIRECTION = 11
+    ROULETTE = 12
+
+
+_PER_BOUNCE = 8
+
+
+@dataclass(frozen=True, slots=True)
+class Numbers:
+    """The random numbers of a render: a sampler and how many samples it is to spread over each dimension."""
+
+    sampler: type
+    samples: int
+
+    def one(self, rays, dimension):
+        """u1 (N,) for each ray at its depth."""
+        return self.sampler.one(rays.key, rays.sample, dimension + _PER_BOUNCE * rays.depth, self.samples)
+
+    def two(self, rays, dimension):
+        """u2 (2, N) for each ray at its depth."""
+        return self.sampler.two(rays.key, rays.sample, dimension + _PER_BOUNCE * rays.depth, self.samples)

@@ -1,0 +1,41 @@
+"""What travels between the stages."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Rays:
+    """A batch of N rays of one depth.
+
+    o, d    (3, N) origins and unit directions, render space
+    beta    (3, N) path throughput
+    pdf     (N,) density with which d was sampled [sr^-1]; camera rays have none, (0,)
+    slot    (N,) where in the film each path collects its light
+    key     (N,) uint32, the hash of each path's pixel
+    sample  (N,) uint32, each path's sample
+    depth   bounces behind these rays; 0 leaves the camera
+    """
+
+    o: np.ndarray
+    d: np.ndarray
+    beta: np.ndarray
+    pdf: np.ndarray
+    slot: np.ndarray
+    key: np.ndarray
+    sample: np.ndarray
+    depth: int
+
+    def take(self, lanes):
+        """The rays `lanes` (M,)."""
+        return Rays(
+            self.o[:, lanes],
+            self.d[:, lanes],
+            self.beta[:, lanes],
+            self.pdf[lanes] if self.depth else self.pdf,
+            self.slot[lanes],
+            self.key[lanes],
+            self.sample[lanes],
+            self.depth,
+        )

@@ -1,0 +1,1 @@
+"""The scene compiled to arrays: what rays meet."""
