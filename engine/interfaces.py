@@ -10,7 +10,7 @@ from typing import Protocol, runtime_checkable
 class Bsdf(Protocol):
     """A reflection lobe about the shading normal `n` (3, N); `wo`, `wi` (3, N) are unit and leave the surface.
 
-    All three are defined for `wo` on the side of `n`; light from below the horizon of `n` is not reflected.
+    What is asked for is reflection: `eval` says nothing of wi below the horizon of `n`, where callers take f as 0.
     """
 
     key: str
@@ -27,7 +27,7 @@ class Bsdf(Protocol):
 
     @staticmethod
     def eval(k, n, wo, wi):
-        """BSDF value f [sr^-1], (3, N)."""
+        """BSDF value f [sr^-1], (3, N), or (3, 1) where it is the same for all lanes."""
 
     @staticmethod
     def sample(k, n, wo, u2):

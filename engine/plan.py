@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from . import needs
 from .arrays import Columns, columns
 from .integrators.path import one_of_the_lobes, only_lobe
-from .lights.triangle import TriangleLight
 from .registry import FILTERS, INTEGRATORS, PASSES, SAMPLERS
 from .scene.settings import Settings
 from .wavefront.direct import add_direct_light, one_of_the_lights, only_light
@@ -33,7 +32,6 @@ class Plan:
     filter: type
     camera: type
     camera_k: Columns
-    emitters: Columns
     on_rays: tuple
     on_surface: tuple
     first_hits: tuple
@@ -54,7 +52,7 @@ class Plan:
         on_rays = (
             *((add_background,) if needs.BACKGROUND in requirements else ()),
             *((add_light_hits,) if needs.LIGHT_HITS in requirements else ()),
-            *((add_emission,) if needs.EMISSIVE_MESHES in requirements and world.triangles.emitter.size else ()),
+            *((add_emission,) if needs.EMISSIVE_MESHES in requirements and world.emitters.area.size else ()),
         )
         on_surface = (add_direct_light,) if can_reflect and not world.lights.is_empty else ()
         chosen = tuple(PASSES[key] for key in settings.passes)
@@ -65,7 +63,6 @@ class Plan:
             filter=FILTERS[settings.pixel_filter],
             camera=type(scene.camera),
             camera_k=columns([scene.camera.row(settings.width, settings.height)]),
-            emitters=next((g.k for g in world.lights.groups if g.light is TriangleLight), Columns()),
             on_rays=on_rays,
             on_surface=on_surface,
             first_hits=tuple(p for p in chosen if p.at_first_hit),

@@ -32,7 +32,7 @@ class Lambert:
 
     @staticmethod
     def eval(k, n, wo, wi):
-        return k.reflectance * (INV_PI * (dot(n, wi) > 0))
+        return k.reflectance * INV_PI
 
     @staticmethod
     def sample(k, n, wo, u2):

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from ..constants import INV_PI
 from ..errors import SceneError
 from ..maths.frames import to_world
-from ..maths.vectors import cosine_power, dot, reflect
+from ..maths.vectors import cosine_power, reflect
 from ..maths.warps import square_to_cosine_power
 from . import registry
 
@@ -47,7 +47,7 @@ class Phong:
     @staticmethod
     def eval(k, n, wo, wi):
         lobe = (k.exponent + 2) * (0.5 * INV_PI) * cosine_power(reflect(wo, n), wi, k.exponent)
-        return k.reflectance * (lobe * (dot(n, wi) > 0))
+        return k.reflectance * lobe
 
     @staticmethod
     def sample(k, n, wo, u2):

@@ -24,21 +24,20 @@ class Path:
         wi = reflection.sample(surface.ns, surface.wo, u1, plan.numbers.two(rays, Dimension.DIRECTION))
         f, pdf = reflection.eval(surface.ns, surface.wo, wi)
         cos = dot(surface.ns, wi)
-        # Below the geometric surface there is nothing to reflect into; such paths end, and still count.
-        valid = (cos > 0) & (dot(surface.n, wi) > 0) & (pdf > 0)
         beta = rays.beta * f
-        beta *= cos / np.where(valid, pdf, 1)
-        survival = survive(plan, rays, beta, valid)
+        beta *= cos / pdf
+        # Below the geometric surface there is nothing to reflect into; such paths end, and still count.
+        survival = survive(plan, rays, beta, (cos > 0) & (dot(surface.n, wi) > 0) & (pdf > 0))
         lanes = np.nonzero(survival)[0]
         return (
             Rays(
-                o=surface.o[:, lanes],
-                d=wi[:, lanes],
-                beta=beta[:, lanes] / survival[lanes],
-                pdf=pdf[lanes],
-                slot=rays.slot[lanes],
-                key=rays.key[lanes],
-                sample=rays.sample[lanes],
+                o=surface.o.take(lanes, axis=1),
+                d=wi.take(lanes, axis=1),
+                beta=beta.take(lanes, axis=1) / survival.take(lanes),
+                pdf=pdf.take(lanes),
+                slot=rays.slot.take(lanes),
+                key=rays.key.take(lanes),
+                sample=rays.sample.take(lanes),
                 depth=rays.depth + 1,
             ),
         )
@@ -49,12 +48,13 @@ def survive(plan, rays, beta, valid):
 
     Russian roulette (Arvo and Kirk 1990): a path goes on with probability q and then counts 1 / q, so the mean stays.
     """
-    brightest = beta.max(axis=0)
+    brightest = np.maximum(np.maximum(beta[0], beta[1]), beta[2])
     alive = valid & (brightest > 0)
     if rays.depth < ROULETTE_DEPTH:
         return alive.astype(np.float32)
-    q = np.sqrt(np.minimum(np.where(alive, brightest, 0), 1))
-    return q * (plan.numbers.one(rays, Dimension.ROULETTE) < q)
+    q = np.sqrt(np.minimum(brightest, 1))
+    alive &= plan.numbers.one(rays, Dimension.ROULETTE) < q
+    return q * alive
 
 
 def only_lobe(plan, rays):

@@ -82,17 +82,17 @@ class AreaLight:
 
     @staticmethod
     def sample(k, p, u2):
-        x, y = np.where(k.ellipse > 0, 0.5 * square_to_disk(u2), u2 - 0.5)
+        x, y = _place(k, u2)
         to_light = k.centre + x * k.axis_x + y * k.axis_y - p
         distance2 = dot(to_light, to_light)
         distance = np.sqrt(distance2)
-        wi = to_light / np.where(distance > 0, distance, 1)
+        tiny = np.finfo(distance.dtype).tiny
+        wi = to_light / np.maximum(distance, tiny)
         cos = np.maximum(-dot(wi, k.normal), 0)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            pdf = distance2 / (k.area * cos)
-        facing = (cos > 0) & (distance > 0)
-        E = _radiance(k, cos) * (k.area * cos / np.where(facing, distance2, 1))
-        return wi, distance, E, np.where(facing, pdf, 1)
+        geometry = k.area * cos / np.maximum(distance2, tiny)
+        with np.errstate(divide="ignore"):
+            pdf = 1 / geometry
+        return wi, distance, _radiance(k, cos) * geometry, pdf
 
     @staticmethod
     def hit(k, o, d):
@@ -110,8 +110,18 @@ class AreaLight:
         return np.where(meets, t, np.inf), _radiance(k, cos), pdf
 
 
+def _place(k, u2):
+    """Points on the shape, as shares of its width and height in [-1/2, 1/2]."""
+    if not k.ellipse.any():
+        return u2 - 0.5
+    disk = 0.5 * square_to_disk(u2)
+    return disk if k.ellipse.all() else np.where(k.ellipse > 0, disk, u2 - 0.5)
+
+
 def _radiance(k, cos):
-    # gain * (1 - tan(theta) cot(a)); cot = 0 is the Lambertian light.
+    if not k.cot_spread.any():  # Lambertian, as nearly all are
+        return k.radiance
+    # gain * (1 - tan(theta) cot(a))
     cos = np.clip(cos, 0, 1)
     tan = np.sqrt(1 - cos * cos) / np.where(cos > 0, cos, 1)
     return k.radiance * (k.gain * np.maximum(1 - tan * k.cot_spread, 0))

@@ -26,8 +26,9 @@ class TriangleLight:
         to_light = q - p
         distance2 = dot(to_light, to_light)
         distance = np.sqrt(distance2)
-        wi = to_light / np.where(distance > 0, distance, 1)
-        geometry = k.area * np.abs(dot(wi, k.normal)) / np.where(distance2 > 0, distance2, 1)
+        tiny = np.finfo(distance.dtype).tiny
+        wi = to_light / np.maximum(distance, tiny)
+        geometry = k.area * np.abs(dot(wi, k.normal)) / np.maximum(distance2, tiny)
         return wi, distance, k.radiance * geometry, triangle_pdf(geometry)
 
 

@@ -130,5 +130,5 @@ def _cone_over_r2(radius, centre_distance2, one_minus_cos):
 
 
 def _positive(x):
-    # Where x is 0 the result is unused or 0 / 1.
-    return np.where(x > 0, x, 1)
+    # Where x is 0 the result is unused.
+    return np.maximum(x, np.finfo(x.dtype).tiny)

@@ -1,25 +1,20 @@
-"""Orthonormal frames about a direction."""
+"""Turning local directions about +z into directions about a normal."""
 
 import numpy as np
 
 
-def tangents(n):
-    """Two unit vectors s, t (3, N) that make a right-handed frame (s, t, n) with unit n.
-
-    Duff et al. 2017, "Building an Orthonormal Basis, Revisited", JCGT 6(1), listing 3: no branch, no singularity.
-    """
-    x, y, z = n
-    sign = np.copysign(1, z).astype(n.dtype, copy=False)
-    a = -1 / (sign + z)
-    b = x * y * a
-    return np.stack((1 + sign * x * x * a, sign * b, -sign * x)), np.stack((b, sign + y * y * a, -y))
-
-
 def to_world(n, local):
-    """local (3, N), given in the frame whose z axis is n, as world vectors."""
-    s, t = tangents(n)
-    s *= local[0]
-    t *= local[1]
-    s += t
-    s += n * local[2]
-    return s
+    """local (3, N), given about +z, turned about unit n (3, N): the rotation by pi about the bisector h of z and n.
+
+    R = h h^T / (1 + |n_z|) - 1 with h = n + sign(n_z) z is orthogonal, maps z to n, and divides by nothing small. The
+    azimuth is arbitrary (but for n = z), as for every frame without a tangent.
+    """
+    sign = np.copysign(1, n[2]).astype(n.dtype, copy=False)
+    h = np.array(np.broadcast_to(n, np.broadcast_shapes(n.shape, local.shape)))
+    h[2] += sign
+    x, y, z = local[0], local[1], local[2] * sign
+    h *= (h[0] * x + h[1] * y + h[2] * z) / (1 + np.abs(n[2]))
+    h[0] -= x
+    h[1] -= y
+    h[2] -= z
+    return h

@@ -1,5 +1,7 @@
 """Hashes of integers: the only source of randomness. Pure, so a path can be replayed from its indices."""
 
+from functools import lru_cache
+
 import numpy as np
 
 _U = np.uint32
@@ -33,11 +35,35 @@ def to_unit(x):
 def permute(index, length, key):
     """The place (N,) uint32 of `index` in a random permutation of 0 .. length - 1, one permutation for each key.
 
-    Kensler 2013, "Correlated Multi-Jittered Sampling", Pixar TM 13-01, listing 2: a keyed bijection of the next
-    power of two, walked until it falls inside. index, key (N,) uint32; length int.
+    index, key (N,) uint32; length int. Every place is equally likely. Short permutations come from a table of
+    _ROWS of them, rotated by the key; long ones are computed.
     """
-    if length == 1:
-        return np.zeros_like(index)
+    if length <= _LONGEST_ROW:
+        place = (key >> _U(32 - _ROW_BITS)) * _U(length)
+        place += index
+        result = _permutations(length).take(place)
+    else:
+        result = _walk(index, length, key)
+    result += key
+    result %= _U(length)
+    return result
+
+
+_ROW_BITS = 8
+_ROWS = 1 << _ROW_BITS
+_LONGEST_ROW = 1024
+
+
+@lru_cache(maxsize=16)
+def _permutations(length):
+    """_ROWS permutations of 0 .. length - 1, one after the other, (_ROWS * length,) uint32."""
+    index = np.tile(np.arange(length, dtype=_U), _ROWS)
+    return _walk(index, length, mix(np.repeat(np.arange(_ROWS, dtype=_U), length)))
+
+
+def _walk(index, length, key):
+    # Kensler 2013, "Correlated Multi-Jittered Sampling", Pixar TM 13-01, listing 2: a keyed bijection of the next power
+    # of two, walked until it falls inside.
     mask = _U((1 << (length - 1).bit_length()) - 1)
     result = _permute_power_of_two(index, mask, key)
     outside = np.nonzero(result >= length)[0]
@@ -45,9 +71,6 @@ def permute(index, length, key):
         walked = _permute_power_of_two(result[outside], mask, key[outside])
         result[outside] = walked
         outside = outside[walked >= length]
-    # Kensler adds a rotation by the key: it evens out what few bits cannot mix.
-    result += key % _U(length)
-    result -= _U(length) * (result >= length)
     return result
 
 

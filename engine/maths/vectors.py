@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from ..constants import ONE_MINUS_EPS32
+
 
 def dot(a, b):
     """Scalar product, (N,)."""
@@ -23,18 +25,12 @@ def length(a):
 
 def normalize(a):
     """Unit vectors along `a`; a zero vector stays zero."""
-    norm = length(a)
-    return a / np.where(norm > 0, norm, 1)
+    return a / np.maximum(length(a), np.finfo(a.dtype).tiny)
 
 
 def reflect(w, n):
     """The mirror direction of w about n, both leaving the surface: 2 (w . n) n - w."""
     return (2 * dot(w, n)) * n - w
-
-
-def face_towards(n, w):
-    """n, turned to the side of w."""
-    return np.copysign(1, dot(n, w)).astype(n.dtype, copy=False) * n
 
 
 def max_abs(a):
@@ -48,6 +44,9 @@ def cosine_power(a, b, exponent):
     With q = |a - b|^2 / 2 = 1 - a . b the power is exp(exponent * log1p(-q)), and q keeps its digits near 0.
     """
     difference = a - b
-    q = 0.5 * dot(difference, difference)
+    q = dot(difference, difference)
+    q *= 0.5
     inside = q < 1
-    return np.exp(exponent * np.log1p(-np.where(inside, q, 0))) * inside
+    # Below 1 also where it does not count, or 0 * log(0) would make a NaN of exponent 0.
+    np.minimum(q, ONE_MINUS_EPS32, out=q)
+    return np.exp(exponent * np.log1p(-q)) * inside

@@ -1,7 +1,7 @@
 """From the unit square to where samples are wanted; each warp stands beside its density.
 
-Every warp maps u2 (2, N) in [0, 1)^2 and is monotone in u2[0] along its own axis, so that stratified numbers stay
-stratified. Directions are about +z.
+Every warp maps u2 (2, N) in [0, 1)^2, equal areas to equal shares, and keeps near numbers near, so that stratified
+numbers stay stratified. Directions are about +z.
 """
 
 import numpy as np
@@ -70,13 +70,10 @@ def square_to_cosine_power_pdf(w, exponent):
 
 def square_to_triangle(u2):
     """Barycentric coordinates (u, v), uniform over a triangle: Heitz 2019, "A Low-Distortion Map", eq. 4."""
-    first, second = u2
-    below = first < second
-    half = np.where(below, first, second) * 0.5
-    return np.stack((np.where(below, half, first - half), np.where(below, second - half, half)))
+    return u2 - 0.5 * np.minimum(u2[0], u2[1])
 
 
 def _about_axis(one_minus_cos, phi):
     # sin^2 = (1 - cos)(1 + cos): no cancellation near the axis.
     sin = np.sqrt(one_minus_cos * (2 - one_minus_cos))
-    return np.stack((sin * np.cos(phi), sin * np.sin(phi), 1 - one_minus_cos))
+    return np.stack(np.broadcast_arrays(sin * np.cos(phi), sin * np.sin(phi), 1 - one_minus_cos))

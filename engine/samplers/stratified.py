@@ -31,8 +31,7 @@ class Stratified:
     @staticmethod
     def one(key, sample, dimension, samples):
         h = mix(key ^ mix_int(2 * dimension))
-        cell = permute(sample, samples, h)
-        return _place(cell, to_unit(mix(h ^ sample)), samples)
+        return _place(permute(sample, samples, h), to_unit(mix(h ^ sample)), samples)
 
     @staticmethod
     def two(key, sample, dimension, samples):
@@ -51,5 +50,7 @@ class Stratified:
 
 
 def _place(cell, jitter, cells):
+    jitter += cell
+    jitter *= np.float32(1 / cells)
     # Rounding may reach 1, which no warp expects.
-    return np.minimum((cell + jitter).astype(np.float32) * np.float32(1 / cells), np.float32(ONE_MINUS_EPS32))
+    return np.minimum(jitter, np.float32(ONE_MINUS_EPS32), out=jitter)

@@ -22,10 +22,12 @@ def add_direct_light(plan, rays, surface, reflection, film):
     L = rays.beta * f
     L *= E * (cos * power_heuristic(pdf * probability, scattered_pdf) / probability)
     # Light from below the geometric surface would leak through it.
-    lanes = np.nonzero((dot(surface.n, wi) > 0) & (cos > 0) & (L.max(axis=0) > 0))[0]
-    blocked = world.accel.occluded(surface.o[:, lanes], wi[:, lanes], distance[lanes] * _SHORTENED)
-    lanes = lanes[~blocked]
-    film.add(rays.slot[lanes], L[:, lanes])
+    brightest = np.maximum(np.maximum(L[0], L[1]), L[2])
+    lanes = np.nonzero((brightest > 0) & (cos > 0) & (dot(surface.n, wi) > 0))[0]
+    limit = distance.take(lanes) * _SHORTENED
+    blocked = world.accel.occluded(surface.o.take(lanes, axis=1), wi.take(lanes, axis=1), limit)
+    lanes = lanes.take(np.nonzero(~blocked)[0])
+    film.add(rays.slot.take(lanes), L.take(lanes, axis=1))
 
 
 def only_light(plan, rays):

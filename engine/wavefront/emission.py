@@ -9,21 +9,16 @@ from .mis import power_heuristic
 
 def add_emission(plan, rays, hits, film):
     """Emission where rays hit a mesh that emits, weighted against the shadow ray that could have found it."""
-    triangles = plan.world.triangles
-    lanes = np.nonzero(hits.prim >= 0)[0]
-    prim = hits.prim[lanes]
-    emitter = triangles.emitter[prim]
-    shining = np.nonzero(emitter >= 0)[0]
-    if not shining.size:
+    world = plan.world
+    lanes = np.nonzero(hits.prim >= world.triangles.first_emitter)[0]
+    if not lanes.size:
         return
-    lanes, prim, emitter = lanes[shining], prim[shining], emitter[shining]
-    L = plan.world.materials.emission[:, triangles.material[prim]] * rays.beta[:, lanes]
+    emitter = hits.prim.take(lanes) - world.triangles.first_emitter
+    L = world.emitters.radiance.take(emitter, axis=1) * rays.beta.take(lanes, axis=1)
     if rays.depth:
-        lights = plan.world.lights
-        area, normal = plan.emitters.area[emitter], plan.emitters.normal[:, emitter]
-        t = hits.t[lanes]
-        cos = np.abs(dot(normal, rays.d[:, lanes]))
-        with np.errstate(divide="ignore"):
-            pdf = triangle_pdf(area * cos / (t * t)) * lights.probability[plan.world.first_emitter + emitter]
-        L *= power_heuristic(rays.pdf[lanes], pdf)
-    film.add(rays.slot[lanes], L)
+        cos = np.abs(dot(world.emitters.normal.take(emitter, axis=1), rays.d.take(lanes, axis=1)))
+        t = hits.t.take(lanes)
+        first = world.lights.probability.size - world.emitters.area.size
+        pdf = triangle_pdf(world.emitters.area.take(emitter) * cos / (t * t)) * world.lights.probability.take(first + emitter)
+        L *= power_heuristic(rays.pdf.take(lanes), pdf)
+    film.add(rays.slot.take(lanes), L)

@@ -8,7 +8,7 @@ from .mis import power_heuristic
 def add_background(plan, rays, hits, film):
     """Rays that met nothing see the world. It is found by scattered rays alone, so it needs no weight."""
     lanes = np.nonzero(hits.prim < 0)[0]
-    film.add(rays.slot[lanes], rays.beta[:, lanes] * plan.world.background)
+    film.add(rays.slot.take(lanes), rays.beta.take(lanes, axis=1) * plan.world.background)
 
 
 def add_light_hits(plan, rays, hits, film):
@@ -18,8 +18,8 @@ def add_light_hits(plan, rays, hits, film):
         lanes = np.nonzero(t < hits.t)[0]
         if not lanes.size:
             continue
-        L = np.broadcast_to(L, rays.d.shape)[:, lanes] * rays.beta[:, lanes]
+        L = np.broadcast_to(L, rays.d.shape).take(lanes, axis=1) * rays.beta.take(lanes, axis=1)
         if rays.depth:
-            light_pdf = np.broadcast_to(pdf, t.shape)[lanes] * np.float32(lamp.probability)
-            L *= power_heuristic(rays.pdf[lanes], light_pdf)
-        film.add(rays.slot[lanes], L)
+            light_pdf = np.broadcast_to(pdf, t.shape).take(lanes) * np.float32(lamp.probability)
+            L *= power_heuristic(rays.pdf.take(lanes), light_pdf)
+        film.add(rays.slot.take(lanes), L)

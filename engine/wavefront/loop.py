@@ -10,6 +10,12 @@ def trace(plan, rays, film, is_cancelled=lambda: False):
 
     The stack is depth first, so that an integrator that branches holds few batches at a time.
     """
+    # Infinite densities and 0 / 0 of lanes that are dropped are meant; what reaches the film is checked there.
+    with np.errstate(all="ignore"):
+        return _trace(plan, rays, film, is_cancelled)
+
+
+def _trace(plan, rays, film, is_cancelled):
     world = plan.world
     stack = [rays]
     while stack:

@@ -30,12 +30,12 @@ class Rays:
     def take(self, lanes):
         """The rays `lanes` (M,)."""
         return Rays(
-            self.o[:, lanes],
-            self.d[:, lanes],
-            self.beta[:, lanes],
-            self.pdf[lanes] if self.depth else self.pdf,
-            self.slot[lanes],
-            self.key[lanes],
-            self.sample[lanes],
+            self.o.take(lanes, axis=1),
+            self.d.take(lanes, axis=1),
+            self.beta.take(lanes, axis=1),
+            self.pdf.take(lanes) if self.depth else self.pdf,
+            self.slot.take(lanes),
+            self.key.take(lanes),
+            self.sample.take(lanes),
             self.depth,
         )

@@ -38,7 +38,7 @@ class Hits:
 
     def take(self, lanes):
         """The hits of the rays `lanes` (M,)."""
-        return Hits(self.prim[lanes], self.t[lanes], self.u[lanes], self.v[lanes])
+        return Hits(self.prim.take(lanes), self.t.take(lanes), self.u.take(lanes), self.v.take(lanes))
 
 
 class Accel:

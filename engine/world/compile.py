@@ -7,7 +7,7 @@ import numpy as np
 from ..arrays import Columns
 from ..errors import AccelError, SceneError
 from ..maths.transforms import cofactors, flips_orientation, transform_points
-from ..maths.vectors import cross, length
+from ..maths.vectors import cross, dot, length
 from ..scene.values import Material
 from .accel import Accel
 from .frame import Frame
@@ -21,36 +21,38 @@ _BLACK = Material(name="none")
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Triangles:
-    """The merged mesh in render space; every array has one column per triangle.
+    """The merged mesh in render space; every array has one column per triangle, those that emit come last.
 
-    v0, e1, e2      (3, F) float32: first corner, and the edges to the second and third
-    normal          (3, F) float32: geometric, unit, by winding
+    shape           (12, F) float32: first corner, the edges to the second and third, and the geometric normal (unit, by
+                    winding), three rows each
     extent          (F,) float32: the largest coordinate of the edges by magnitude
-    corner_normals  (9, F) float32: shading normals of the three corners, one after the other; (9, 0): all flat
-    material        (F,) int32, a row of `Materials`
-    emitter         (F,) int32: which emissive triangle this is, -1 for none; (0,): none emits
+    corner_normals  (9, F) float32: the shading normal of the first corner, and the differences to those of the second
+                    and third; (9, 0): all meshes are flat
+    material        (F,) intp, a row of `Materials`
+    first_emitter   triangles from here on emit
     """
 
-    v0: np.ndarray
-    e1: np.ndarray
-    e2: np.ndarray
-    normal: np.ndarray
+    shape: np.ndarray
     extent: np.ndarray
     corner_normals: np.ndarray
     material: np.ndarray
-    emitter: np.ndarray
+    first_emitter: int
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CompiledWorld:
-    """What rays travel through. `background` (3, 1) float32 [W m^-2 sr^-1]; `emitters` index `lights` from `first_emitter` on."""
+    """What rays travel through.
+
+    emitters    columns of the triangles that emit, the last ones of `triangles` and of `lights`
+    background  (3, 1) float32 [W m^-2 sr^-1]
+    """
 
     frame: Frame
     accel: Accel
     triangles: Triangles
     materials: Materials
     lights: Lights
-    first_emitter: int
+    emitters: Columns
     background: np.ndarray
     warnings: tuple
 
@@ -61,72 +63,93 @@ def compile_world(scene, bsdfs, smooth):
     `bsdfs` are the lobes to make room for; `smooth` says whether shading normals are wanted. Raises SceneError
     where the geometry does not fit into memory.
     """
-    warnings = []
-    materials = list(dict.fromkeys(m for o in scene.objects for m in o.materials)) or [_BLACK]
-    row = {material: i for i, material in enumerate(materials)}
-    row.setdefault(_BLACK, len(materials))
+    materials, row = _number_materials(scene)
+    table = Materials.of(materials, bsdfs)
     parts = [_place(o, row, smooth) for o in scene.objects if o.mesh.triangles.shape[1]]
-    if any((part["material"] == len(materials)).any() for part in parts):
-        materials.append(_BLACK)
+    frame, vertices, indices = _merge(parts, scene.camera.position)
+    material = _concatenate([part["material"] for part in parts], (0,)).astype(np.intp)
 
+    corners, double_area, normal, usable = _measure(vertices, indices)
+    warnings = _report_unusable(usable)
+    # A triangle without an area is never hit: leaving it out changes no picture. Emitters come last.
+    emits = table.emission.any(axis=0)[material]
+    keep = np.nonzero(usable & (double_area > 0))[0]
+    keep = keep[np.argsort(emits[keep], kind="stable")]
+    corners, double_area, normal, material = corners.take(keep, axis=2), double_area[keep], normal.take(keep, axis=1), material[keep]
+    e1, e2 = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    triangles = Triangles(
+        shape=np.concatenate((corners[:, 0], e1, e2, normal)),
+        extent=np.maximum(np.abs(e1), np.abs(e2)).max(axis=0, initial=0),
+        corner_normals=_corner_normals(parts, keep, normal) if smooth else np.zeros((9, 0), np.float32),
+        material=material,
+        first_emitter=keep.size - np.count_nonzero(emits[keep]),
+    )
+    try:
+        accel = Accel(vertices, indices.take(keep, axis=1))
+    except AccelError as error:
+        raise SceneError(f"scene '{scene.name}': {error}") from error
+    radius = float(np.abs(corners).max(initial=0)) / frame.scale or 1.0
+    emitters = _emitters(triangles, double_area, table)
+    return CompiledWorld(
+        frame=frame,
+        accel=accel,
+        triangles=triangles,
+        materials=table,
+        lights=Lights.of(scene.lights, emitters, frame, radius),
+        emitters=emitters,
+        background=np.array(scene.world.radiance, np.float32)[:, None],
+        warnings=warnings,
+    )
+
+
+def _number_materials(scene):
+    """The different materials of `scene`, with black at the end, and the number of each."""
+    materials = [*dict.fromkeys(m for o in scene.objects for m in o.materials)]
+    if not materials or any(not o.materials for o in scene.objects):
+        materials.append(_BLACK)
+    return materials, {material: i for i, material in enumerate(materials)}
+
+
+def _merge(parts, origin):
+    """Render space, and the vertices (3, V) float32 and triangles (3, F) of all parts in it."""
     vertices = _concatenate([part["vertices"] for part in parts], (3, 0))
     counts = np.cumsum([0] + [part["vertices"].shape[1] for part in parts])
     indices = _concatenate([part["triangles"] + start for part, start in zip(parts, counts)], (3, 0)).astype(np.int32)
-    frame = Frame.around(scene.camera.position, length(vertices - scene.camera.position[:, None]) if vertices.size else np.zeros(0))
-    # Rounded once; from here on the rounded values are the geometry, for Embree and for everything else.
-    with np.errstate(over="ignore"):
-        vertices = frame.points(vertices).astype(np.float32)
-
-    corners = vertices[:, indices]  # (3 coordinates, 3 corners, F)
-    usable = np.isfinite(corners).all(axis=(0, 1)) & (np.abs(corners) < FARTHEST).all(axis=(0, 1))
-    if not usable.all():
-        warnings.append(f"{np.count_nonzero(~usable)} triangles are left out: a corner is not finite or too far away")
-    exact = corners.astype(np.float64)
-    e1, e2 = exact[:, 1] - exact[:, 0], exact[:, 2] - exact[:, 0]
     with np.errstate(over="ignore", invalid="ignore"):
-        normal = cross(e1, e2)
-        double_area = length(normal)
-    # A triangle without an area is never hit: leaving it out changes no picture.
-    keep = usable & (double_area > 0) & np.isfinite(double_area)
-    if not keep.all():
-        indices, e1, e2, normal, double_area = indices[:, keep], e1[:, keep], e2[:, keep], normal[:, keep], double_area[keep]
-        corners = corners[:, :, keep]
+        frame = Frame.around(origin, length(vertices - origin[:, None]))
+        # Rounded once; from here on the rounded values are the geometry, for Embree and for everything else.
+        return frame, frame.points(vertices).astype(np.float32), indices
 
-    material = _concatenate([part["material"] for part in parts], (0,)).astype(np.int32)[keep]
-    table = Materials.of(materials, bsdfs)
-    emissive = np.nonzero(table.emission.any(axis=0)[material])[0] if material.size else np.zeros(0, np.int64)
-    emitter = np.zeros(0, np.int32)
-    if emissive.size:
-        emitter = np.full(material.size, -1, np.int32)
-        emitter[emissive] = np.arange(emissive.size)
-    normal = (normal / double_area).astype(np.float32)
-    triangles = Triangles(
-        v0=np.ascontiguousarray(corners[:, 0]),
-        e1=e1.astype(np.float32),
-        e2=e2.astype(np.float32),
+
+def _measure(vertices, indices):
+    """Corners (3 coordinates, 3, F), twice the area (F,), unit normals (3, F), and which triangles are usable (F,)."""
+    corners = vertices.take(indices, axis=1)
+    with np.errstate(over="ignore", invalid="ignore"):
+        usable = (np.abs(corners) < FARTHEST).all(axis=(0, 1))  # false for NaN
+        exact = corners.astype(np.float64)
+        normal = cross(exact[:, 1] - exact[:, 0], exact[:, 2] - exact[:, 0])
+        double_area = length(normal)
+        return corners, double_area, (normal / np.maximum(double_area, np.finfo(np.float64).tiny)).astype(np.float32), usable
+
+
+def _report_unusable(usable):
+    lost = np.count_nonzero(~usable)
+    return (f"{lost} triangles are left out: a corner is not finite or too far away",) if lost else ()
+
+
+def _emitters(triangles, double_area, table):
+    """The columns of `lights.triangle.TriangleLight`."""
+    last = slice(triangles.first_emitter, None)
+    v0, e1, e2, normal = triangles.shape[:, last].reshape(4, 3, -1)
+    return Columns(
+        v0=v0,
+        e1=e1,
+        e2=e2,
         normal=normal,
-        extent=np.maximum(np.abs(e1), np.abs(e2)).max(axis=0, initial=0.0).astype(np.float32),
-        corner_normals=_corner_normals(parts, keep, normal) if smooth else np.zeros((9, 0), np.float32),
-        material=material,
-        emitter=emitter,
+        extent=triangles.extent[last],
+        area=(0.5 * double_area[last]).astype(np.float32),
+        radiance=table.emission.take(triangles.material[last], axis=1),
     )
-    light_triangles = Columns(
-        v0=triangles.v0[:, emissive],
-        e1=triangles.e1[:, emissive],
-        e2=triangles.e2[:, emissive],
-        normal=normal[:, emissive],
-        extent=triangles.extent[emissive],
-        area=(0.5 * double_area[emissive]).astype(np.float32),
-        radiance=table.emission[:, material[emissive]],
-    )
-    try:
-        accel = Accel(vertices, indices)
-    except AccelError as error:
-        raise SceneError(f"scene '{scene.name}': {error}") from error
-    radius = float(np.abs(corners).max(initial=0.0)) / frame.scale or 1.0
-    lights = Lights.of(scene.lights, light_triangles, frame, radius)
-    background = np.array(scene.world.radiance, np.float32)[:, None]
-    return CompiledWorld(frame, accel, triangles, table, lights, len(lights.cdf) - emissive.size, background, tuple(warnings))
 
 
 def _place(o, row, smooth):
@@ -152,21 +175,25 @@ def _place(o, row, smooth):
 
 
 def _corner_normals(parts, keep, flat):
-    # Filled with the geometric normal where a mesh is flat or its normal has no direction.
-    result = np.tile(flat, (3, 1))
-    column = np.cumsum(keep) - 1
+    """See `Triangles.corner_normals`; flat meshes, and normals without a direction, take the geometric normal."""
+    count = sum(part["triangles"].shape[1] for part in parts)
+    given = np.zeros((9, count), np.float32)
     start = 0
     for part in parts:
-        count = part["triangles"].shape[1]
+        end = start + part["triangles"].shape[1]
         if "corner_normals" in part:
-            kept = np.nonzero(keep[start : start + count])[0]
-            given = part["corner_normals"][:, kept]
-            at = column[start + kept]
-            for corner in range(0, 9, 3):
-                valid = np.isfinite(given[corner : corner + 3]).all(axis=0) & given[corner : corner + 3].any(axis=0)
-                result[corner : corner + 3, at[valid]] = given[corner : corner + 3, valid]
-        start += count
-    return result
+            given[:, start:end] = part["corner_normals"]
+        start = end
+    given = given.take(keep, axis=1)
+    for corner in (given[0:3], given[3:6], given[6:9]):
+        cos = dot(corner, flat)
+        # Not NaN, not zero, and on the side of the geometric normal, whose sign decides for both.
+        corner *= np.copysign(1, cos).astype(np.float32)
+        lacking = ~(np.abs(cos) > 0)
+        corner[:, lacking] = flat[:, lacking]
+    given[3:6] -= given[0:3]
+    given[6:9] -= given[0:3]
+    return given
 
 
 def _concatenate(arrays, empty):

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..constants import EPS32
-from ..maths.vectors import face_towards, max_abs, normalize
+from ..maths.vectors import dot, length
 
 START_ULPS = 8
 """How far rays start off their triangle, in units of EPS32 times coordinate plus extent (see `spawn`)."""
@@ -32,17 +32,20 @@ class Surface:
     material: np.ndarray
 
 
-def flat_normals(triangles, prim, u, v, n):
+def flat_normals(triangles, prim, u, v, n, sign):
     """Shading normals of a world where every mesh is flat: the geometric ones."""
     return n
 
 
-def smooth_normals(triangles, prim, u, v, n):
-    """Shading normals (3, M) interpolated between the corners and renormalised, turned to the side of n."""
-    corners = triangles.corner_normals
-    w = 1 - u - v
-    ns = np.stack([w * corners[i][prim] + u * corners[i + 3][prim] + v * corners[i + 6][prim] for i in range(3)])
-    return face_towards(normalize(ns), n)
+def smooth_normals(triangles, prim, u, v, n, sign):
+    """Shading normals (3, M) interpolated between the corners, renormalised, and turned as the geometric ones are."""
+    corner, along_e1, along_e2 = triangles.corner_normals.take(prim, axis=1).reshape(3, 3, -1)
+    along_e1 *= u
+    along_e2 *= v
+    corner += along_e1
+    corner += along_e2
+    corner *= sign / np.maximum(length(corner), np.finfo(np.float32).tiny)
+    return corner
 
 
 def interact(triangles, shading_normals, d, hits):
@@ -53,14 +56,16 @@ def interact(triangles, shading_normals, d, hits):
     """
     prim, u, v = hits.prim, hits.u, hits.v
     # From barycentric coordinates: the error stays that of the triangle, whatever the length of the ray.
-    p = np.empty_like(d)
-    for i in range(3):
-        np.multiply(triangles.e1[i][prim], u, out=p[i])
-        p[i] += triangles.e2[i][prim] * v
-        p[i] += triangles.v0[i][prim]
+    p, e1, e2, n = triangles.shape.take(prim, axis=1).reshape(4, 3, -1)
+    e1 *= u
+    e2 *= v
+    e1 += e2
+    p += e1
     wo = -d
-    n = face_towards(triangles.normal[:, prim], wo)
-    offset = max_abs(p)
-    offset += triangles.extent[prim]
-    offset *= START_ULPS * EPS32
-    return Surface(p, wo, n, shading_normals(triangles, prim, u, v, n), p + offset * n, prim, triangles.material[prim])
+    sign = np.copysign(np.float32(1), dot(n, wo))
+    n *= sign
+    offset = np.abs(p).max(axis=0)
+    offset += triangles.extent.take(prim)
+    offset *= np.float32(START_ULPS * EPS32)
+    ns = shading_normals(triangles, prim, u, v, n, sign)
+    return Surface(p, wo, n, ns, p + offset * n, prim, triangles.material.take(prim))

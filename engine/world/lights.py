@@ -86,7 +86,7 @@ class Lights:
     def choose(self, u1):
         """Light indices (N,) and their probability (N,)."""
         index = discrete.choose(self.cdf, u1)
-        return index, self.probability[index]
+        return index, self.probability.take(index)
 
     def sample(self, index, p, u2):
         """A point on light `index` (N,), or on the only light (None): see `interfaces.Light.sample`."""
@@ -98,7 +98,8 @@ class Lights:
         for group in self.groups:
             lanes = np.nonzero((index >= group.first) & (index < group.first + group.count))[0]
             k = group.k.take(index[lanes] - group.first)
-            wi[:, lanes], distance[lanes], E[:, lanes], pdf[lanes] = group.light.sample(k, p[:, lanes], u2[:, lanes])
+            sampled = group.light.sample(k, p.take(lanes, axis=1), u2.take(lanes, axis=1))
+            wi[:, lanes], distance[lanes], E[:, lanes], pdf[lanes] = sampled
         return wi, distance, E, pdf
 
 

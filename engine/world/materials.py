@@ -55,8 +55,8 @@ class Materials:
         return Reflection(
             tuple(lobe.bsdf for lobe in self.lobes),
             tuple(lobe.k.take(material) for lobe in self.lobes),
-            self.thresholds[:, material] if several else self.thresholds,
-            self.shares[:, material] if several else self.shares,
+            self.thresholds.take(material, axis=1) if several else self.thresholds,
+            self.shares.take(material, axis=1) if several else self.shares,
         )
 
 
@@ -84,7 +84,7 @@ class Reflection:
         if others:
             pdf = pdf * self.shares[first]
         for i in others:
-            f += self.bsdfs[i].eval(self.k[i], n, wo, wi)
+            f = f + self.bsdfs[i].eval(self.k[i], n, wo, wi)
             pdf += self.bsdfs[i].pdf(self.k[i], n, wo, wi) * self.shares[i]
         return f, pdf
 
@@ -95,7 +95,7 @@ class Reflection:
             # Later lobes overwrite earlier ones, so the last threshold passed decides.
             lanes = np.nonzero(np.broadcast_to(u1 >= threshold, u2.shape[1:]))[0]
             k = self.k[i] if self._is_shared(self.k[i]) else self.k[i].take(lanes)
-            wi[:, lanes] = self.bsdfs[i].sample(k, n[:, lanes], wo[:, lanes], u2[:, lanes])
+            wi[:, lanes] = self.bsdfs[i].sample(k, n.take(lanes, axis=1), wo.take(lanes, axis=1), u2.take(lanes, axis=1))
         return wi
 
     @staticmethod
