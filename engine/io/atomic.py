@@ -2,7 +2,8 @@
 
 import contextlib
 import os
-import tempfile
+import secrets
+import stat
 from pathlib import Path
 
 from ..errors import FileError
@@ -15,15 +16,14 @@ def replacing(path):
     The file is flushed to the disk before it is renamed. Whatever goes wrong, no partial file is left and an older
     file stays as it was. Raises FileError, naming `path` and the cause, for every OSError.
     """
-    path = Path(path)
     temporary = None
     try:
-        _refuse_directory(path)
-        temporary = _new_file(path)
+        target = _target(path)
+        temporary = _new_file(target)
         yield temporary
         with open(temporary, "rb+") as file:
             os.fsync(file.fileno())
-        os.replace(temporary, path)
+        os.replace(temporary, target)
         temporary = None
     except OSError as error:
         raise FileError(f"cannot write '{path}': {cause(error)}") from error
@@ -34,10 +34,8 @@ def replacing(path):
 
 def check_writable(path):
     """Raises FileError now if `path` could not be written later: no such folder, no permission, a folder itself."""
-    path = Path(path)
     try:
-        _refuse_directory(path)
-        _new_file(path).unlink()
+        _new_file(_target(path)).unlink()
     except OSError as error:
         raise FileError(f"cannot write '{path}': {cause(error)}") from error
 
@@ -47,24 +45,19 @@ def cause(error):
     return error.strerror or str(error) or type(error).__name__
 
 
-def _refuse_directory(path):
-    # os.replace would notice only after the work is done.
-    if path.is_dir():
-        raise IsADirectoryError(None, "it is a folder")
+def _target(path):
+    """Where links lead; raises OSError for what os.replace would refuse only after the work is done."""
+    if "\0" in str(path):
+        raise OSError(None, "its name holds a null character")
+    target = Path(os.path.realpath(path))
+    with contextlib.suppress(FileNotFoundError):
+        if not stat.S_ISREG(os.stat(target).st_mode):
+            raise OSError(None, "it is a folder or device")
+    return target
 
 
 def _new_file(path):
-    """An empty file beside `path` with the permissions that a file opened there would have."""
-    handle, name = tempfile.mkstemp(prefix=f".{path.stem[:32]}-", suffix=path.suffix, dir=path.parent)
-    try:
-        os.fchmod(handle, 0o666 & ~_umask())
-    finally:
-        os.close(handle)
-    return Path(name)
-
-
-def _umask():
-    # There is no way to ask for it but to set it.
-    current = os.umask(0o022)
-    os.umask(current)
-    return current
+    """An empty file with a new name beside `path`, with the permissions that any new file there gets."""
+    new = path.with_name(f".{path.stem[:32]}-{secrets.token_hex(4)}{path.suffix}")
+    os.close(os.open(new, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666))
+    return new

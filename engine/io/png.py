@@ -22,14 +22,15 @@ def write_png(path, image):
         raise FileError(f"cannot write '{path}': the picture has no pass Combined")
     pixels = to_bytes(image.passes["Combined"])
     with replacing(path) as temporary:
-        Picture.fromarray(pixels, "RGBA").save(temporary, "PNG")
+        Picture.fromarray(pixels).save(temporary, "PNG")
 
 
 def to_bytes(rgba):
     """8-bit sRGB with straight alpha (H, W, 4) uint8 of linear premultiplied `rgba` (H, W, 4); NaN becomes 0."""
     rgba = np.nan_to_num(np.asarray(rgba, np.float32), nan=0.0, posinf=np.inf, neginf=0.0)
     alpha = np.clip(rgba[..., 3:], 0, 1)
-    straight = rgba[..., :3] / np.where(alpha > 0, alpha, 1)
+    with np.errstate(over="ignore"):
+        straight = rgba[..., :3] / np.where(alpha > 0, alpha, 1)
     encoded = np.concatenate((srgb_from_linear(np.clip(straight, 0, 1)), alpha), axis=-1)
     return (encoded * 255 + 0.5).astype(np.uint8)
 
