@@ -1,0 +1,138 @@
+"""A .blend file's scene as engine values, outside a picture render: what the command line works with.
+
+The evaluated scene as it will be rendered exists only inside `RenderEngine.render`, so a second render engine, which
+exports and does nothing else, is let run for it.
+"""
+
+from contextlib import contextmanager
+
+import bpy
+
+from ..engine import GlanzError, SceneError
+from .export import export_scene
+from .files import open_blend, save_png
+from .reports import describe
+from .settings import settings_of
+
+__all__ = ["capture", "open_blend", "save_png"]
+
+
+class GlanzCaptureEngine(bpy.types.RenderEngine):
+    """Keeps the exported scene and draws nothing; not for users"""
+
+    bl_idname = "GLANZ_CAPTURE"
+    bl_label = "Glanz Capture"
+    bl_use_postprocess = False
+
+    # What the next run shall do, and what came of it; Blender makes the instances, so the class carries both.
+    overrides = {}
+    outcome = None
+
+    def __init__(self, *args, **kwargs):
+        super().__init__(*args, **kwargs)
+
+    def render(self, depsgraph):
+        try:
+            GlanzCaptureEngine.outcome = self._export(depsgraph)
+        except BaseException as error:
+            # Blender would print it and go on.
+            GlanzCaptureEngine.outcome = error
+
+    def _export(self, depsgraph):
+        settings = settings_of(depsgraph.scene_eval, depsgraph.view_layer_eval, **self.overrides)
+        camera = self.camera_override
+        scene, warnings = export_scene(
+            depsgraph, settings, camera, camera and self.camera_model_matrix(camera), camera and self.camera_shift_x(camera)
+        )
+        return scene, settings, warnings
+
+
+def capture(frame=None, scene_name=None, view_layer=None, overrides=None):
+    """(scene, settings, warnings) of the open file: engine `Scene` and `Settings`, and a tuple of lines.
+
+    frame       to go to first; None: where the file is. The file stays there, since simulations cannot go back
+    scene_name  None: the active scene
+    view_layer  its name; None: the first one that is used for rendering
+    overrides   {field of `Settings`: value}; the file's settings hold for all others
+    Raises GlanzError naming the cause where there is nothing to render. Nothing on disk changes, and in memory
+    nothing but the frame.
+    """
+    scene = _scene(scene_name)
+    layer, notes = _view_layer(scene, view_layer)
+    if frame is not None:
+        scene.frame_set(frame)
+    with _registered(), _render_settings(scene.render):
+        GlanzCaptureEngine.overrides = dict(overrides or {})
+        GlanzCaptureEngine.outcome = None
+        try:
+            bpy.ops.render.render(scene=scene.name, layer=layer.name)
+        except RuntimeError as error:
+            if GlanzCaptureEngine.outcome is None:
+                raise SceneError(_refusal(scene, error)) from None
+        outcome, GlanzCaptureEngine.outcome = GlanzCaptureEngine.outcome, None
+    if outcome is None:
+        raise SceneError(f"Blender rendered nothing for view layer '{layer.name}' of scene '{scene.name}'")
+    if isinstance(outcome, BaseException):
+        if isinstance(outcome, (GlanzError, KeyboardInterrupt)):
+            raise outcome
+        raise SceneError(f"scene '{scene.name}' cannot be exported: {describe(outcome)}") from outcome
+    scene_value, settings, warnings = outcome
+    return scene_value, settings, (*notes, *warnings)
+
+
+def _scene(name):
+    if name is None:
+        return bpy.context.scene
+    if name not in bpy.data.scenes:
+        raise SceneError(f"unknown scene '{name}'; the file has: {', '.join(scene.name for scene in bpy.data.scenes)}")
+    return bpy.data.scenes[name]
+
+
+def _view_layer(scene, name):
+    """(view layer, notes): the one called `name`, or the first that is used."""
+    if name is not None:
+        if name not in scene.view_layers:
+            raise SceneError(f"scene '{scene.name}' has no view layer '{name}'; it has: {', '.join(v.name for v in scene.view_layers)}")
+        return scene.view_layers[name], ()
+    used = [layer for layer in scene.view_layers if layer.use] or list(scene.view_layers)
+    others = ", ".join(layer.name for layer in used[1:])
+    return used[0], (f"only view layer '{used[0].name}' is rendered, not: {others}",) if others else ()
+
+
+def _refusal(scene, error):
+    """Why Blender did not even start to render, one line."""
+    if scene.camera is None:
+        return f"scene '{scene.name}' has no camera: add one, and make it the active camera"
+    cause = " ".join(str(error).split()).removeprefix("Error: ")
+    return f"scene '{scene.name}' cannot be rendered: {cause}"
+
+
+@contextmanager
+def _registered():
+    """The settings and the capture engine known to Blender, and forgotten again if they were not before."""
+    from . import properties
+
+    own = [] if hasattr(bpy.types.Scene, "glanz") else [properties]
+    for module in own:
+        module.register()
+    bpy.utils.register_class(GlanzCaptureEngine)
+    try:
+        yield
+    finally:
+        bpy.utils.unregister_class(GlanzCaptureEngine)
+        for module in own:
+            module.unregister()
+
+
+@contextmanager
+def _render_settings(render):
+    """`render` set to run the capture engine alone: no sequencer, no compositor; restored afterwards."""
+    wanted = {"engine": GlanzCaptureEngine.bl_idname, "use_sequencer": False, "use_compositing": False}
+    before = {name: getattr(render, name) for name in wanted}
+    try:
+        for name, value in wanted.items():
+            setattr(render, name, value)
+        yield
+    finally:
+        for name, value in before.items():
+            setattr(render, name, value)

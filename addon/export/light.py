@@ -1,0 +1,113 @@
+"""Blender's lights as the engine's, in exactly Blender's units.
+
+Every light has a strength S = colour * energy * 2^exposure * colour temperature * (colour * strength of its Emission
+node). With `normalize` off, S counts per bulb or area instead of in all. Exposure, temperature and `normalize` exist
+from Blender 4.5 on.
+"""
+
+import math
+
+import numpy as np
+
+from ...engine import AreaLight, PointLight, SpotLight, SunLight
+from .nodes import has_nodes, output_node
+from .shaders import surface_of
+
+SMALLEST_SPREAD = math.radians(0.1)
+"""Blender allows a spread of 0, which no light has."""
+_ROUND = ("DISK", "ELLIPSE")
+
+
+def export_light(light_object, matrix, findings):
+    """The engine's light for a light object (evaluated) placed by `matrix` (4, 4), or None where it gives no light."""
+    light = light_object.data
+    name = f"light '{light_object.name}'"
+    if getattr(getattr(light, "cycles", None), "is_portal", False):
+        findings.note("light portals are ignored", name)
+        return None
+    note_ignored(light_object, light, name, findings)
+    common = {"name": light_object.name, "is_visible": bool(light_object.visible_camera)}
+    return _KINDS[light.type](light, matrix, strength(light, name, findings), common, name, findings)
+
+
+def strength(light, name, findings):
+    """S, (3,) float64, in the unit of the light's kind."""
+    S = np.array(light.color, np.float64) * light.energy * 2.0 ** getattr(light, "exposure", 0.0)
+    if getattr(light, "use_temperature", False):
+        S = S * np.array(light.temperature_color, np.float64)
+    if has_nodes(light):
+        output = output_node(light.node_tree)
+        if output is None:
+            findings.note("the node tree has no active output, so the light is dark", name)
+            return np.zeros(3)
+        S = S * surface_of(output, name, findings).emission
+    return S
+
+
+def note_ignored(light_object, light, name, findings):
+    """Note what Blender can ask of a light and Glanz does not do."""
+    if not getattr(light, "use_shadow", True):
+        findings.note("the light casts shadows although they are switched off", name)
+    linking = getattr(light_object, "light_linking", None)
+    if linking and (linking.receiver_collection or linking.blocker_collection):
+        findings.note("light linking is ignored, the light reaches everything", name)
+    if not (light_object.visible_diffuse and light_object.visible_glossy):
+        findings.note("ray visibility other than the camera's is ignored", name)
+
+
+def _bulb_intensity(light, S):
+    """Radiant intensity [W sr^-1] of point and spot lights."""
+    factor = 1.0
+    if not getattr(light, "normalize", True):
+        r = light.shadow_soft_size
+        factor = 4 * math.pi * r * r if r > 0 else 4.0
+    return tuple((S * (factor / (4 * math.pi))).tolist())
+
+
+def _point(light, matrix, S, common, name, findings):
+    return PointLight(
+        position=tuple(matrix[:3, 3].tolist()),
+        intensity=_bulb_intensity(light, S),
+        radius=light.shadow_soft_size,
+        soft_falloff=light.use_soft_falloff,
+        **common,
+    )
+
+
+def _spot(light, matrix, S, common, name, findings):
+    return SpotLight(
+        world_from_light=matrix,
+        intensity=_bulb_intensity(light, S),
+        angle=min(light.spot_size, math.pi),
+        blend=light.spot_blend,
+        radius=light.shadow_soft_size,
+        soft_falloff=light.use_soft_falloff,
+        **common,
+    )
+
+
+def _sun(light, matrix, S, common, name, findings):
+    axis = matrix[:3, 2]
+    length = np.linalg.norm(axis)
+    if not length > 0:
+        findings.note("the light's scale leaves it no direction, so it is left out", name)
+        return None
+    angle = min(light.angle, math.pi)
+    if not getattr(light, "normalize", True) and angle > 0:
+        S = S * math.pi * math.sin(0.5 * angle) ** 2
+    return SunLight(towards=tuple((axis / length).tolist()), irradiance=tuple(S.tolist()), angle=angle, **common)
+
+
+def _area(light, matrix, S, common, name, findings):
+    size_y = light.size_y if light.shape in ("RECTANGLE", "ELLIPSE") else light.size
+    shape = {"world_from_light": matrix, "size_x": light.size, "size_y": size_y, "is_ellipse": light.shape in _ROUND}
+    area = AreaLight(**shape).area()
+    if not area > 0:
+        findings.note("the light has no area, so it is left out", name)
+        return None
+    per_area = math.pi * (area if getattr(light, "normalize", True) else 1.0)
+    spread = min(max(light.spread, SMALLEST_SPREAD), math.pi)
+    return AreaLight(radiance=tuple((S / per_area).tolist()), spread=spread, **shape, **common)
+
+
+_KINDS = {"POINT": _point, "SPOT": _spot, "SUN": _sun, "AREA": _area}

@@ -1,0 +1,57 @@
+"""Blender's materials as the engine's."""
+
+import numpy as np
+
+from ...engine import Material
+from .closure import Closure, diffuse, merged, scaled_lobe
+from .nodes import has_nodes, output_node, Reader
+from .principled import principled_lobes
+from .shaders import surface_of
+
+BRIGHTEST = 1e30
+"""Radiance [W m^-2 sr^-1] beyond which products no longer fit into single precision."""
+
+DEFAULT = Material(name="Default", lobes=principled_lobes((0.8, 0.8, 0.8), 0.0, 0.5, 1.5, 0.5))
+"""What faces without a material wear: Blender's default Principled BSDF."""
+
+
+def export_material(material, findings):
+    """The engine's `Material` for a material (evaluated); None is `DEFAULT`."""
+    if material is None:
+        return DEFAULT
+    owner = f"material '{material.name}'"
+    if not has_nodes(material):
+        return _checked(material.name, owner, diffuse(tuple(material.diffuse_color)[:3]), findings)
+    output = output_node(material.node_tree)
+    if output is None:
+        findings.note("the node tree has no active output, so the material is black", owner)
+        return Material(name=material.name)
+    reader = Reader(owner, findings)
+    for identifier, note in (("Displacement", "displacement is left out"), ("Volume", "the volume is left out")):
+        if reader.is_linked(output, identifier):
+            findings.note(note, owner)
+    return _checked(material.name, owner, surface_of(output, owner, findings), findings)
+
+
+def _checked(name, owner, closure, findings):
+    """A material whose colours are what the engine allows: finite, not negative, reflecting at most what arrives."""
+    lobes = tuple(_clean_lobe(lobe, owner, findings) for lobe in merged(closure.lobes))
+    most = Closure(lobes).albedo().max()
+    if most > 1:
+        if most > 1 + 1e-6:  # rounding is nobody's fault
+            findings.note("the material reflects more than it receives, so it is darkened", owner)
+        lobes = tuple(scaled_lobe(lobe, 1 / most) for lobe in lobes)
+    return Material(name=name, lobes=lobes, emission=clean_colour(closure.emission, owner, findings))
+
+
+def _clean_lobe(lobe, owner, findings):
+    return type(lobe)(**{**vars(lobe), "reflectance": clean_colour(lobe.reflectance, owner, findings)})
+
+
+def clean_colour(colour, owner, findings):
+    """`colour` as three finite numbers from 0 to BRIGHTEST; notes what had to be changed."""
+    values = np.array(colour, np.float64)
+    clean = np.clip(np.nan_to_num(values, nan=0.0, posinf=BRIGHTEST, neginf=0.0), 0.0, BRIGHTEST)
+    if not np.array_equal(values, clean):
+        findings.note("a colour or strength is negative or not finite and is cut off", owner)
+    return tuple(clean.tolist())

@@ -1,0 +1,48 @@
+"""The Principled BSDF as one diffuse and one glossy lobe: pure functions of its numbers.
+
+Blender's model is a metal (share m, colour c) beside a dielectric coat over a diffuse base of the same colour. The
+engine's lobes have reflectances that do not depend on the angle, so the coat reflects its average over a cosine-
+weighted hemisphere F, and the base receives the rest:
+
+    glossy   m c + (1 - m) F tint
+    diffuse  (1 - m) (1 - F) c                 (F: its largest channel, so that nothing is reflected twice)
+
+Their sum is at most 1 for c and tint in [0, 1]: m c + (1 - m) (F + (1 - F) c) <= 1. What is lost against Blender is
+the brighter rim at grazing angles; what is kept is the light that leaves the surface under even light.
+"""
+
+from functools import lru_cache
+
+import numpy as np
+
+from ...engine import Lambert, Phong
+from .closure import phong_exponent
+
+_ANGLES = 2048
+
+
+def principled_lobes(base, metallic, roughness, ior, specular_level, tint=(1.0, 1.0, 1.0)):
+    """(Lambert, Phong) of a Principled BSDF; base and tint (r, g, b), all but `ior` in [0, 1]."""
+    base = np.clip(np.array(base, np.float64), 0, 1)
+    m = min(max(metallic, 0.0), 1.0)
+    coat = average_fresnel(effective_ior(ior, specular_level)) * np.clip(np.array(tint, np.float64), 0, 1)
+    lambert = (1 - m) * (1 - coat.max()) * base
+    phong = m * base + (1 - m) * coat
+    return Lambert(tuple(lambert.tolist())), Phong(tuple(phong.tolist()), phong_exponent(roughness))
+
+
+def effective_ior(ior, specular_level):
+    """The index of refraction whose reflection at normal incidence is 2 * specular_level times that of `ior` (Blender 4.0 on)."""
+    f0 = ((ior - 1) / (ior + 1)) ** 2 * 2 * max(specular_level, 0.0)
+    root = min(f0, 0.99) ** 0.5
+    return (1 + root) / (1 - root)
+
+
+@lru_cache(maxsize=256)
+def average_fresnel(ior):
+    """Share of cosine-weighted light that a smooth dielectric with `ior` >= 1 reflects: integral of F(cos) 2 cos dcos."""
+    cos = (np.arange(_ANGLES) + 0.5) / _ANGLES
+    cos_t = np.sqrt(1 - (1 - cos * cos) / (ior * ior))
+    across = (cos - ior * cos_t) / (cos + ior * cos_t)
+    along = (ior * cos - cos_t) / (ior * cos + cos_t)
+    return float(np.mean((across * across + along * along) * cos))

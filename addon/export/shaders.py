@@ -1,0 +1,120 @@
+"""Blender's shader nodes as closures: to support another node is to add a function and a row of the table."""
+
+import numpy as np
+
+from . import closure
+from .closure import Closure
+from .nodes import Reader, input_by_identifier
+from .principled import principled_lobes
+
+_WHITE = (1.0, 1.0, 1.0)
+
+
+def surface_of(output, owner, findings):
+    """The `Closure` behind the surface of an output node of a material, world or light; `owner` is named in notes."""
+    return _behind(Reader(owner, findings), input_by_identifier(output, "Surface"))
+
+
+def _behind(reader, socket):
+    """The closure of whatever feeds a shader input; nothing feeds it: black."""
+    reader, _, output = reader.source(socket)
+    if output is None:
+        return Closure()
+    node = output.node
+    if node.type in _TABLE:
+        return _TABLE[node.type](reader, node)
+    return _approximated(reader, node)
+
+
+def _approximated(reader, node):
+    """Nodes that are not understood are diffuse in their colour, and say so."""
+    if input_by_identifier(node, "Color") is None:
+        reader.note(f"{node.bl_label} is not supported and is rendered black")
+        return Closure()
+    reader.note(f"{node.bl_label} is not supported and is rendered as Diffuse of its colour")
+    return closure.diffuse(reader.colour(node, "Color"))
+
+
+def _note_normal(reader, node):
+    if reader.is_linked(node, "Normal"):
+        reader.note("bump and normal maps are left out")
+
+
+def _diffuse(reader, node):
+    _note_normal(reader, node)
+    if reader.number(node, "Roughness") > 0:
+        reader.note("Roughness of Diffuse BSDF is left out")
+    return closure.diffuse(reader.colour(node, "Color"))
+
+
+def _glossy(reader, node):
+    _note_normal(reader, node)
+    if reader.number(node, "Anisotropy") != 0:
+        reader.note("Anisotropy of Glossy BSDF is left out")
+    return closure.glossy(reader.colour(node, "Color"), reader.number(node, "Roughness"))
+
+
+def _emission(reader, node):
+    return closure.emission(reader.colour(node, "Color"), reader.number(node, "Strength"))
+
+
+def _transparent(reader, node):
+    reader.note("Transparent BSDF is not supported: alone it is rendered black, mixed the other shader takes its place")
+    return Closure(is_clear=True)
+
+
+def _add(reader, node):
+    return _behind(reader, node.inputs[0]) + _behind(reader, node.inputs[1])
+
+
+def _mix(reader, node):
+    factor = reader.number(node, "Fac", default=0.5)
+    first, second = (_behind(reader, node.inputs[i]) for i in (1, 2))
+    # Light cannot pass through yet; a leaf on a transparent card is better seen as a whole card than half black.
+    if first.is_clear != second.is_clear:
+        return second if first.is_clear else first
+    return closure.mix(factor, first, second)
+
+
+_LEFT_OUT = {
+    "Subsurface Weight": "Subsurface of Principled BSDF is rendered as diffuse",
+    "Transmission Weight": "Transmission of Principled BSDF is rendered opaque",
+    "Coat Weight": "Coat of Principled BSDF is left out",
+    "Sheen Weight": "Sheen of Principled BSDF is left out",
+    "Anisotropic": "Anisotropy of Principled BSDF is left out",
+    "Thin Film Thickness": "Thin film of Principled BSDF is left out",
+    "Thin Wall": "Thin wall of Principled BSDF is left out",
+    "Diffuse Roughness": "Diffuse roughness of Principled BSDF is left out",
+}
+
+
+def _principled(reader, node):
+    _note_normal(reader, node)
+    for identifier, note in _LEFT_OUT.items():
+        if reader.is_linked(node, identifier) or reader.number(node, identifier):
+            reader.note(note)
+    if reader.is_linked(node, "Alpha") or reader.number(node, "Alpha", 1.0) < 1:
+        reader.note("Alpha of Principled BSDF is rendered opaque")
+    lobes = principled_lobes(
+        reader.colour(node, "Base Color"),
+        reader.number(node, "Metallic"),
+        reader.number(node, "Roughness"),
+        reader.number(node, "IOR", 1.5),
+        reader.number(node, "Specular IOR Level", 0.5),
+        reader.colour(node, "Specular Tint", _WHITE),
+    )
+    shine = closure.emission(reader.colour(node, "Emission Color"), reader.number(node, "Emission Strength"))
+    return Closure(lobes, np.asarray(shine.emission))
+
+
+_TABLE = {
+    "BSDF_PRINCIPLED": _principled,
+    "BSDF_DIFFUSE": _diffuse,
+    "BSDF_GLOSSY": _glossy,
+    "BSDF_TRANSPARENT": _transparent,
+    "EMISSION": _emission,
+    "BACKGROUND": _emission,
+    "MIX_SHADER": _mix,
+    "ADD_SHADER": _add,
+}
+"""Node type -> function (reader, node) -> Closure."""

@@ -1,0 +1,23 @@
+"""Blender's world as the engine's: one radiance from every direction."""
+
+from ...engine import World
+from .material import clean_colour
+from .nodes import Reader, has_nodes, output_node
+from .shaders import surface_of
+
+
+def export_world(world, findings):
+    """The engine's `World` for a world (evaluated); none is black."""
+    if world is None:
+        return World()
+    owner = f"world '{world.name}'"
+    if not has_nodes(world):
+        return World(name=world.name, radiance=clean_colour(world.color, owner, findings))
+    output = output_node(world.node_tree)
+    if output is None:
+        findings.note("the node tree has no active output, so the world is black", owner)
+        return World(name=world.name)
+    if Reader(owner, findings).is_linked(output, "Volume"):
+        findings.note("the volume is left out", owner)
+    surface = surface_of(output, owner, findings)
+    return World(name=world.name, radiance=clean_colour(surface.emission, owner, findings))

@@ -1,0 +1,166 @@
+"""Glanz's own panels in the Properties editor."""
+
+import bpy
+
+from . import backend, passes
+
+
+class GlanzPanel:
+    """Shared by all panels: where they are, and that they belong to Glanz."""
+
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "render"
+    COMPAT_ENGINES = {"GLANZ"}
+
+    @classmethod
+    def poll(cls, context):
+        return context.engine in cls.COMPAT_ENGINES
+
+    def column(self):
+        """A column of the layout in Blender's usual style: names left, values right."""
+        self.layout.use_property_split = True
+        self.layout.use_property_decorate = False
+        return self.layout.column()
+
+
+class GLANZ_RENDER_PT_problem(GlanzPanel, bpy.types.Panel):
+    """Shown instead of a traceback where the engine cannot be loaded."""
+
+    bl_label = "Glanz Cannot Render"
+    bl_order = 0
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and bool(backend.problem())
+
+    def draw(self, context):
+        column = self.layout.column()
+        column.alert = True
+        for line in backend.problem().split(". "):
+            column.label(text=line, icon="ERROR", translate=False)
+
+
+class GLANZ_RENDER_PT_sampling(GlanzPanel, bpy.types.Panel):
+    bl_label = "Sampling"
+
+    def draw(self, context):
+        settings = context.scene.glanz
+        column = self.column()
+        column.prop(settings, "integrator")
+        column.prop(settings, "samples")
+        column.prop(settings, "sampler")
+        column.prop(settings, "seed")
+
+
+class GLANZ_RENDER_PT_light_paths(GlanzPanel, bpy.types.Panel):
+    bl_label = "Light Paths"
+
+    def draw(self, context):
+        self.column().prop(context.scene.glanz, "max_depth")
+
+
+class GLANZ_RENDER_PT_film(GlanzPanel, bpy.types.Panel):
+    bl_label = "Film"
+
+    def draw(self, context):
+        settings = context.scene.glanz
+        column = self.column()
+        column.prop(settings, "pixel_filter")
+        row = column.row()
+        # The box filter has but one width.
+        row.active = settings.pixel_filter != "box"
+        row.prop(settings, "filter_width")
+
+
+class GLANZ_RENDER_PT_performance(GlanzPanel, bpy.types.Panel):
+    bl_label = "Performance"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        render = context.scene.render
+        column = self.column()
+        column.prop(render, "threads_mode")
+        row = column.row()
+        row.enabled = render.threads_mode == "FIXED"
+        row.prop(render, "threads")
+        column.prop(context.scene.glanz, "tile_size")
+
+
+class GLANZ_VIEWLAYER_PT_passes(GlanzPanel, bpy.types.Panel):
+    bl_label = "Passes"
+    bl_context = "view_layer"
+
+    def draw(self, context):
+        column = self.column()
+        for _, row in passes.offered().values():
+            if row.flag:
+                column.prop(context.view_layer, row.flag)
+
+
+class GLANZ_VIEWLAYER_PT_override(GlanzPanel, bpy.types.Panel):
+    bl_label = "Override"
+    bl_context = "view_layer"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        column = self.column()
+        for name in ("material_override", "world_override", "samples"):
+            if hasattr(context.view_layer, name):
+                column.prop(context.view_layer, name)
+
+
+class GLANZ_LIGHT_PT_light(GlanzPanel, bpy.types.Panel):
+    """Everything about a light that Glanz renders; what this version of Blender lacks is skipped."""
+
+    bl_label = "Light"
+    bl_context = "data"
+
+    _SHAPE = {
+        "POINT": ("shadow_soft_size", "use_soft_falloff"),
+        "SPOT": ("shadow_soft_size", "use_soft_falloff", "spot_size", "spot_blend"),
+        "SUN": ("angle",),
+        "AREA": ("shape", "size", "size_y", "spread"),
+    }
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and context.light is not None
+
+    def draw(self, context):
+        light = context.light
+        self.layout.row().prop(light, "type", expand=True)
+        column = self.column()
+        for name in ("color", "use_temperature", "temperature", "energy", "exposure", "normalize"):
+            if hasattr(light, name) and not (name == "temperature" and not light.use_temperature):
+                column.prop(light, name)
+        column.separator()
+        for name in self._SHAPE[light.type]:
+            if name == "size_y" and light.shape in ("SQUARE", "DISK"):
+                continue
+            column.prop(light, name)
+        if context.object and context.object.data == light:
+            column.separator()
+            column.prop(context.object, "visible_camera", text="Visible to Camera")
+
+
+_CLASSES = (
+    GLANZ_RENDER_PT_problem,
+    GLANZ_RENDER_PT_sampling,
+    GLANZ_RENDER_PT_light_paths,
+    GLANZ_RENDER_PT_film,
+    GLANZ_RENDER_PT_performance,
+    GLANZ_VIEWLAYER_PT_passes,
+    GLANZ_VIEWLAYER_PT_override,
+    GLANZ_LIGHT_PT_light,
+)
+
+
+def register():
+    for panel in _CLASSES:
+        bpy.utils.register_class(panel)
+
+
+def unregister():
+    for panel in reversed(_CLASSES):
+        bpy.utils.unregister_class(panel)

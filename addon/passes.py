@@ -1,0 +1,45 @@
+"""Blender's side of the engine's render passes: the one table that knows it.
+
+The engine's registry says which passes there are and which channels they have; this table adds what only Blender
+asks for. A pass of the engine that has no row here is not offered in Blender.
+"""
+
+from dataclasses import dataclass
+
+from . import backend
+
+
+@dataclass(frozen=True)
+class BlenderPass:
+    """kind: Blender's channel type; flag: the property of the view layer that switches the pass on, empty: always on."""
+
+    kind: str
+    flag: str = ""
+
+
+TABLE = {
+    # Blender makes room for Combined whether it is asked for or not, so it is always rendered, as Cycles does.
+    "Combined": BlenderPass("COLOR"),
+    "Depth": BlenderPass("VALUE", "use_pass_z"),
+    "Normal": BlenderPass("VECTOR", "use_pass_normal"),
+}
+
+
+def offered():
+    """{key: (pass class of the engine, BlenderPass)} of the passes that both sides know; empty without the engine."""
+    engine = backend.engine()
+    registry = engine.PASSES if engine else {}
+    return {key: (plugin, TABLE[key]) for key, plugin in registry.items() if key in TABLE}
+
+
+def chosen(view_layer):
+    """Keys of the passes that are switched on in `view_layer`; Combined always is."""
+    return tuple(key for key, (_, row) in offered().items() if not row.flag or getattr(view_layer, row.flag))
+
+
+def register_passes(engine, scene, view_layer):
+    """Tell Blender which passes `view_layer` will get, so that files and the compositor make room for them."""
+    available = offered()
+    for key in chosen(view_layer):
+        plugin, row = available[key]
+        engine.register_pass(scene, view_layer, key, len(plugin.channels), plugin.channels, row.kind)

@@ -1,0 +1,106 @@
+"""The settings of Glanz that a .blend file stores: `scene.glanz`."""
+
+import zlib
+from functools import lru_cache
+
+import bpy
+from bpy.props import EnumProperty, FloatProperty, IntProperty, PointerProperty
+
+from . import backend
+
+
+def stored_number(key):
+    """The number under which files remember a choice: of its own, so that more plug-ins do not change old files."""
+    return zlib.crc32(key.encode()) & 0x7FFFFFFF
+
+
+@lru_cache(maxsize=None)
+def enum_items(registry_name):
+    """Items for a choice among the plug-ins of an engine registry; kept, for Blender does not own their strings."""
+    engine = backend.engine()
+    registry = getattr(engine, registry_name) if engine else {}
+    return [(key, plugin.label, _first_line(plugin), "NONE", stored_number(key)) for key, plugin in registry.items()]
+
+
+def _first_line(plugin):
+    # Blender ends tooltips with a full stop of its own.
+    return plugin.__doc__.strip().splitlines()[0].rstrip(".")
+
+
+class GlanzSceneSettings(bpy.types.PropertyGroup):
+    """How Glanz renders this scene; names, units and meaning are those of the engine's `Settings`."""
+
+    integrator: EnumProperty(
+        name="Integrator",
+        description="How light is followed through the scene: which effects there are, and what they cost",
+        # A function, so that registering Glanz does not load the engine; its default is the stored number.
+        items=lambda self, context: enum_items("INTEGRATORS"),
+        default=stored_number("path"),
+    )
+    samples: IntProperty(
+        name="Samples",
+        description="Paths per pixel. Render time grows in proportion; noise halves with four times as many",
+        default=64,
+        min=1,
+        soft_max=4096,
+        max=2**24,
+    )
+    max_depth: IntProperty(
+        name="Max Depth",
+        description=(
+            "Bounces after which light is no longer followed; 0 is direct light only. "
+            "Too few make interiors too dark; more cost time only where light gets that far"
+        ),
+        default=8,
+        min=0,
+        soft_max=64,
+        max=2**16,
+    )
+    seed: IntProperty(
+        name="Seed",
+        description="Another number gives other noise of the same amount; the same number gives the same picture",
+        default=0,
+    )
+    sampler: EnumProperty(
+        name="Sampler",
+        description="How random numbers are spread: better spread is less noise in the same time",
+        items=lambda self, context: enum_items("SAMPLERS"),
+        default=stored_number("stratified"),
+    )
+    pixel_filter: EnumProperty(
+        name="Pixel Filter",
+        description="How light around a pixel counts for it: sharpness against jagged edges. Costs no time",
+        items=lambda self, context: enum_items("FILTERS"),
+        default=stored_number("blackman_harris"),
+    )
+    filter_width: FloatProperty(
+        name="Filter Width",
+        description="Full width of the pixel filter, in pixels: wider is softer. The box filter is always one pixel wide",
+        default=1.5,
+        min=0.01,
+        soft_max=4.0,
+        max=10.0,
+        subtype="PIXEL",
+    )
+    tile_size: IntProperty(
+        name="Tile Size",
+        description=(
+            "Side of the tiles that appear as they finish, in pixels; 0 is the whole frame. "
+            "Does not change the picture; very small tiles cost time"
+        ),
+        default=64,
+        min=0,
+        soft_max=512,
+        max=65536,
+        subtype="PIXEL",
+    )
+
+
+def register():
+    bpy.utils.register_class(GlanzSceneSettings)
+    bpy.types.Scene.glanz = PointerProperty(type=GlanzSceneSettings, name="Glanz", description="Settings of the render engine Glanz")
+
+
+def unregister():
+    del bpy.types.Scene.glanz
+    bpy.utils.unregister_class(GlanzSceneSettings)

@@ -1,0 +1,86 @@
+"""The render engine that Blender sees: export, render, write tiles, listen for Esc."""
+
+from contextlib import closing
+
+import bpy
+
+from . import backend, passes
+from .reports import Warnings, errors_shown
+from .results import write_tile
+from .status import Status
+
+
+class Cancelled(Exception):
+    """The user pressed Esc during the export."""
+
+
+class GlanzRenderEngine(bpy.types.RenderEngine):
+    """Glanz: a ray tracer that is read as easily as it renders"""
+
+    bl_idname = "GLANZ"
+    bl_label = "Glanz"
+    bl_use_preview = False
+    # Material Preview is drawn by EEVEE, and the shader editor offers the usual nodes.
+    bl_use_eevee_viewport = True
+    bl_use_shading_nodes_custom = False
+
+    def __init__(self, *args, **kwargs):
+        # Blender runs this twice for each engine, so there is nothing here.
+        super().__init__(*args, **kwargs)
+
+    def update_render_passes(self, scene=None, renderlayer=None):
+        """Called by Blender, also without a render: which passes there will be."""
+        with errors_shown(self):
+            passes.register_passes(self, scene, renderlayer)
+
+    def render(self, depsgraph):
+        """Called by Blender for each view layer of each frame."""
+        with errors_shown(self):
+            try:
+                self._render(depsgraph)
+            except Cancelled:
+                pass  # what is finished stays; Blender knows that it was cancelled
+
+    def _render(self, depsgraph):
+        backend.load_or_raise()
+        from ..engine import render
+        from .export import export_scene
+        from .settings import settings_of
+
+        settings = settings_of(depsgraph.scene_eval, depsgraph.view_layer_eval, width=self.resolution_x, height=self.resolution_y)
+        self.update_stats("", "Exporting the scene")
+        camera = self.camera_override
+        scene, notes = export_scene(
+            depsgraph,
+            settings,
+            camera,
+            camera and self.camera_model_matrix(camera),
+            camera and self.camera_shift_x(camera),
+            self._check,
+        )
+        warnings = Warnings(self)
+        warnings.show(notes)
+        self.update_stats("", "Preparing the scene")
+        status = Status(self, settings.samples)
+        # Closing the generator joins its threads, so none is left when Blender goes on, whatever happens here.
+        with closing(render(scene, settings)) as progress:
+            for step in progress:
+                warnings.show(step.warnings)
+                for tile in step.tiles:
+                    write_tile(self, tile, settings.region, depsgraph.view_layer.name)
+                status.show(step.done)
+                if self.test_break():
+                    break
+        warnings.close()
+
+    def _check(self):
+        if self.test_break():
+            raise Cancelled
+
+
+def register():
+    bpy.utils.register_class(GlanzRenderEngine)
+
+
+def unregister():
+    bpy.utils.unregister_class(GlanzRenderEngine)

@@ -1,0 +1,64 @@
+"""What the user is told: errors that stop the render, warnings that do not."""
+
+import logging
+import traceback
+from contextlib import contextmanager
+
+from . import backend
+
+log = logging.getLogger("glanz")
+
+MOST_WARNINGS = 8
+"""Warnings shown in Blender for one render; all are logged."""
+
+
+def describe(error):
+    """One line for a user: our own errors speak for themselves, others are named."""
+    engine = backend.engine()
+    if isinstance(error, MemoryError):
+        return f"Glanz ran out of memory: lower the resolution, or simplify the scene ({error or 'no details'})"
+    if engine and isinstance(error, engine.GlanzError):
+        return str(error)
+    if isinstance(error, ImportError) and backend.problem():
+        return backend.problem()
+    return f"Glanz failed: {type(error).__name__}: {error}"
+
+
+@contextmanager
+def errors_shown(engine):
+    """Turn whatever is raised inside into an error report of Blender's render `engine`, so that its operator fails.
+
+    An exception that leaves `RenderEngine.render` is printed and forgotten by Blender: it saves a black picture and
+    answers FINISHED; SystemExit even ends Blender. Only `report` with ERROR makes it stop; `error_set` shows the text
+    where the picture would be.
+    """
+    try:
+        yield
+    except BaseException as error:
+        message = describe(error)
+        traceback.print_exception(error)
+        engine.error_set(message)
+        engine.report({"ERROR"}, message)
+
+
+class Warnings:
+    """Shows each warning once: all in the log, the first few as reports of Blender's render `engine`."""
+
+    def __init__(self, engine):
+        self._engine = engine
+        self._seen = {}
+
+    def show(self, lines):
+        for line in lines:
+            if line in self._seen:
+                continue
+            self._seen[line] = True
+            log.warning(line)
+            if len(self._seen) <= MOST_WARNINGS:
+                self._engine.report({"WARNING"}, line)
+
+    def close(self):
+        """Say how many were not shown."""
+        hidden = len(self._seen) - MOST_WARNINGS
+        if hidden > 0:
+            self._engine.report({"WARNING"}, f"and {hidden} more warnings, see the console")

@@ -1,0 +1,48 @@
+"""The engine's tiles into Blender's render result: the one place that knows its layout.
+
+Blender counts rows from the bottom, and positions from the corner of the border. A result that was begun must be
+ended exactly once: twice is a crash, never is a leak.
+"""
+
+from contextlib import contextmanager
+
+import numpy as np
+
+
+def flat_pixels(values):
+    """(height, width, channels) with row 0 at the top, as the flat float32 array with row 0 at the bottom that Blender wants."""
+    return np.ascontiguousarray(values[::-1], np.float32).reshape(-1)
+
+
+def place_in_result(tile, region):
+    """(x, y, width, height) of a tile in Blender's result: from the bottom left of `region` (x0, y0, x1, y1) [px]."""
+    x0, _, _, y1 = region
+    return tile.x - x0, y1 - (tile.y + tile.height), tile.width, tile.height
+
+
+@contextmanager
+def open_result(engine, place, layer, view=""):
+    """Blender's result for `place`; kept when the block ends well, dropped when it raises.
+
+    Raises RuntimeError where Blender does not grant the whole of `place`.
+    """
+    result = engine.begin_result(*place, layer=layer, view=view)
+    if result is None:
+        raise RuntimeError(f"Blender has no room for the tile at {place[:2]} px of view layer '{layer}'")
+    keep = False
+    try:
+        if (result.resolution_x, result.resolution_y) != place[2:]:
+            raise RuntimeError(f"Blender's tile is {result.resolution_x}x{result.resolution_y} px, expected {place[2]}x{place[3]}")
+        yield result
+        keep = True
+    finally:
+        engine.end_result(result, cancel=not keep)
+
+
+def write_tile(engine, tile, region, layer, view=""):
+    """Show and keep a finished `tile`; passes that the tile does not have stay empty."""
+    with open_result(engine, place_in_result(tile, region), layer, view) as result:
+        for render_pass in result.layers[0].passes:
+            values = tile.passes.get(render_pass.name)
+            if values is not None:
+                render_pass.rect.foreach_set(flat_pixels(values))

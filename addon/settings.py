@@ -1,0 +1,49 @@
+"""A Blender scene's settings as the engine's `Settings`: the file's own, or whatever overrides them."""
+
+import dataclasses
+
+import numpy as np
+
+from ..engine import SceneError, Settings
+from . import passes
+
+FIELDS = tuple(field.name for field in dataclasses.fields(Settings))
+_OWN = ("integrator", "samples", "max_depth", "seed", "sampler", "pixel_filter", "filter_width", "tile_size")
+"""Read from `scene.glanz`; the names are the same on both sides."""
+
+
+def settings_of(scene, view_layer, **overrides):
+    """`Settings` for `scene` (evaluated, so that animated settings count) and the passes of `view_layer`.
+
+    `overrides` are fields of `Settings`. Raises SceneError for a name that is none, and for values out of range.
+    """
+    unknown = sorted(set(overrides) - set(FIELDS))
+    if unknown:
+        raise SceneError(f"unknown settings {', '.join(unknown)}; known: {', '.join(FIELDS)}")
+    render = scene.render
+    width, height = resolution(render.resolution_x, render.resolution_y, render.resolution_percentage)
+    values = {"width": width, "height": height, "threads": render.threads if render.threads_mode == "FIXED" else 0}
+    values |= {name: getattr(scene.glanz, name) for name in _OWN}
+    # A view layer may have samples of its own; 0 means the scene's.
+    values["samples"] = view_layer.samples or values["samples"]
+    values["passes"] = passes.chosen(view_layer)
+    values |= overrides
+    if render.use_border and "border" not in overrides:
+        fractions = (render.border_min_x, render.border_max_x, render.border_min_y, render.border_max_y)
+        values["border"] = border(fractions, values["width"], values["height"])
+    return Settings(**values)
+
+
+def resolution(width, height, percentage):
+    """(width, height) [px] of the full frame, rounded down as Blender does."""
+    return width * percentage // 100, height * percentage // 100
+
+
+def border(fractions, width, height):
+    """(x0, y0, x1, y1) [px] from the top left, of Blender's border (min x, max x, min y, max y) in [0, 1] from the bottom left.
+
+    Blender truncates in single precision; to differ by a pixel is to have no room in its result. The whole frame is ().
+    """
+    left, right, bottom, top = (int(np.float32(f) * np.float32(n)) for f, n in zip(fractions, (width, width, height, height)))
+    edges = (left, height - top, right, height - bottom)
+    return () if edges == (0, 0, width, height) else edges
