@@ -9,8 +9,8 @@ from .bsdfs.lambert import Lambert
 from .bsdfs.phong import Phong
 from .cameras.perspective import PerspectiveCamera
 from .errors import FileError, GlanzError, SceneError
-# from .io.exr import write_exr
-# from .io.scene_file import read_scene, write_scene
+from .io.exr import write_exr
+from .io.scene_file import read_scene, write_scene
 from .lights.area import AreaLight
 from .lights.point import PointLight
 from .lights.spot import SpotLight

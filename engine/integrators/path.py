@@ -27,13 +27,13 @@ class Path:
         beta = rays.beta * f
         beta *= cos / pdf
         # Below the geometric surface there is nothing to reflect into; such paths end, and still count.
-        survival = survive(plan, rays, beta, (cos > 0) & (dot(surface.n, wi) > 0) & (pdf > 0))
-        lanes = np.nonzero(survival)[0]
+        alive, q = survive(plan, rays, beta, (cos > 0) & (dot(surface.n, wi) > 0) & (pdf > 0))
+        lanes = np.nonzero(alive)[0]
         return (
             Rays(
                 o=surface.o.take(lanes, axis=1),
                 d=wi.take(lanes, axis=1),
-                beta=beta.take(lanes, axis=1) / survival.take(lanes),
+                beta=beta.take(lanes, axis=1) / q.take(lanes),
                 pdf=pdf.take(lanes),
                 slot=rays.slot.take(lanes),
                 key=rays.key.take(lanes),
@@ -44,17 +44,17 @@ class Path:
 
 
 def survive(plan, rays, beta, valid):
-    """The probability (N,) with which each path that survives has done so; 0 for those that end here.
+    """Which paths go on (N,), and the probability q (N,) with which they do.
 
-    Russian roulette (Arvo and Kirk 1990): a path goes on with probability q and then counts 1 / q, so the mean stays.
+    Russian roulette (Arvo and Kirk 1990): a path that survives counts 1 / q, so the mean stays what it was.
     """
     brightest = np.maximum(np.maximum(beta[0], beta[1]), beta[2])
     alive = valid & (brightest > 0)
     if rays.depth < ROULETTE_DEPTH:
-        return alive.astype(np.float32)
+        return alive, np.ones_like(brightest)
     q = np.sqrt(np.minimum(brightest, 1))
-    alive &= plan.numbers.one(rays, Dimension.ROULETTE) < q
-    return q * alive
+    alive &= plan.numbers.independent(rays, Dimension.ROULETTE) < q
+    return alive, q
 
 
 def only_lobe(plan, rays):

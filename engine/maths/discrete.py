@@ -24,4 +24,7 @@ def choose(cdf, u1):
     if len(cdf) > _FEW:
         return np.searchsorted(cdf, u1, side="right")
     # For a handful of choices counting beats searching by far.
-    return sum((u1 >= edge for edge in cdf[:-1].astype(u1.dtype)), np.zeros(u1.shape, np.intp))
+    index = np.zeros(u1.shape, np.intp)
+    for edge in cdf[:-1].astype(u1.dtype):
+        index += u1 >= edge
+    return index

@@ -33,11 +33,6 @@ def reflect(w, n):
     return (2 * dot(w, n)) * n - w
 
 
-def max_abs(a):
-    """The largest coordinate by magnitude, (N,)."""
-    return np.maximum(np.maximum(np.abs(a[0]), np.abs(a[1])), np.abs(a[2]))
-
-
 def cosine_power(a, b, exponent):
     """max(a . b, 0)^exponent of unit vectors, also where the exponent is 1e6 and float32 cannot hold the cosine.
 

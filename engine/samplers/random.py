@@ -1,8 +1,6 @@
 """Independent random numbers: the baseline that every other sampler is measured against."""
 
-import numpy as np
-
-from ..maths.hashing import mix, mix_int, to_unit
+from ..maths.hashing import mix, mix_int, to_unit, to_unit2
 from . import registry
 
 
@@ -15,9 +13,8 @@ class Random:
 
     @staticmethod
     def one(key, sample, dimension, samples):
-        return to_unit(mix(mix(key ^ mix_int(2 * dimension)) ^ sample))
+        return to_unit(mix(mix(key ^ mix_int(dimension)) ^ sample))
 
     @staticmethod
     def two(key, sample, dimension, samples):
-        h = mix(mix(key ^ mix_int(2 * dimension)) ^ sample)
-        return to_unit(np.stack((h, mix(h ^ mix_int(2 * dimension + 1)))))
+        return to_unit2(mix(mix(key ^ mix_int(dimension)) ^ sample))

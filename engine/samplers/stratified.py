@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from ..constants import ONE_MINUS_EPS32
-from ..maths.hashing import mix, mix_int, permute, to_unit
+from ..maths.hashing import mix, mix_int, permute, to_unit, to_unit2
 from . import registry
 
 
@@ -30,27 +30,25 @@ class Stratified:
 
     @staticmethod
     def one(key, sample, dimension, samples):
-        h = mix(key ^ mix_int(2 * dimension))
+        h = mix(key ^ mix_int(dimension))
         return _place(permute(sample, samples, h), to_unit(mix(h ^ sample)), samples)
 
     @staticmethod
     def two(key, sample, dimension, samples):
-        h = mix(key ^ mix_int(2 * dimension))
+        h = mix(key ^ mix_int(dimension))
         columns, rows = grid(samples)
         cell = permute(sample, columns * rows, h)
         row = cell // np.uint32(columns)
-        column = cell - row * np.uint32(columns)
-        jitter = mix(h ^ sample)
-        return np.stack(
-            (
-                _place(column, to_unit(jitter), columns),
-                _place(row, to_unit(mix(jitter ^ mix_int(2 * dimension + 1))), rows),
-            )
-        )
+        cell -= row * np.uint32(columns)
+        u2 = to_unit2(mix(h ^ sample))
+        _place(cell, u2[0], columns)
+        _place(row, u2[1], rows)
+        return u2
 
 
 def _place(cell, jitter, cells):
-    jitter += cell
+    # Converted through int32, which cells fit into: uint32 and float32 would meet in float64.
+    jitter += cell.view(np.int32).astype(np.float32)
     jitter *= np.float32(1 / cells)
     # Rounding may reach 1, which no warp expects.
     return np.minimum(jitter, np.float32(ONE_MINUS_EPS32), out=jitter)

@@ -4,6 +4,9 @@ import numpy as np
 
 from ..world.interaction import interact
 
+_FEW_SHARE = 16
+"""Fewer misses than one in so many stay in their batch."""
+
 
 def trace(plan, rays, film, is_cancelled=lambda: False):
     """Follow `rays` and all that the integrator makes of them; light goes into `film`. Returns False if cancelled.
@@ -27,10 +30,8 @@ def _trace(plan, rays, film, is_cancelled):
             add_light(plan, rays, hits, film)
         if rays.depth > plan.settings.max_depth:
             continue
-        lanes = np.nonzero(hits.prim >= 0)[0]
-        if lanes.size < hits.prim.size:
-            rays, hits = rays.take(lanes), hits.take(lanes)
-        if not lanes.size:
+        rays, hits = _only_hits(rays, hits)
+        if not hits.prim.size:
             continue
         surface = interact(world.triangles, plan.shading_normals, rays.d, hits)
         for p in plan.first_hits if rays.depth == 0 else ():
@@ -43,3 +44,17 @@ def _trace(plan, rays, film, is_cancelled):
         if rays.depth < plan.last_depth:
             stack.extend(plan.scatter(plan, rays, surface, reflection))
     return True
+
+
+def _only_hits(rays, hits):
+    """The rays that hit something, and their hits."""
+    missed = np.nonzero(hits.prim < 0)[0]
+    if missed.size * _FEW_SHARE > hits.prim.size or rays.depth == 0:
+        if not missed.size:
+            return rays, hits
+        lanes = np.nonzero(hits.prim >= 0)[0]
+        return rays.take(lanes), hits.take(lanes)
+    # Packing costs more than carrying a few idle paths to the end of the bounce. Without throughput they add nothing;
+    # triangle -1 is the last one.
+    rays.beta[:, missed] = 0
+    return rays, hits

@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from enum import IntEnum
 
+from ..samplers.random import Random
+
 
 class Dimension(IntEnum):
     """Numbers for one path, and for each of its bounces (from LIGHT_CHOICE on)."""
@@ -30,6 +32,10 @@ class Numbers:
     def one(self, rays, dimension):
         """u1 (N,) for each ray at its depth."""
         return self.sampler.one(rays.key, rays.sample, dimension + _PER_BOUNCE * rays.depth, self.samples)
+
+    def independent(self, rays, dimension):
+        """u1 (N,) without strata, for decisions that they cannot improve; the same for every sampler."""
+        return Random.one(rays.key, rays.sample, dimension + _PER_BOUNCE * rays.depth, self.samples)
 
     def two(self, rays, dimension):
         """u2 (2, N) for each ray at its depth."""

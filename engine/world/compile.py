@@ -6,6 +6,7 @@ import numpy as np
 
 from ..arrays import Columns
 from ..errors import AccelError, SceneError
+from ..lights.triangle import lift
 from ..maths.transforms import cofactors, flips_orientation, transform_points
 from ..maths.vectors import cross, dot, length
 from ..scene.values import Material
@@ -146,7 +147,7 @@ def _emitters(triangles, double_area, table):
         e1=e1,
         e2=e2,
         normal=normal,
-        extent=triangles.extent[last],
+        lift=lift(v0, e1, e2),
         area=(0.5 * double_area[last]).astype(np.float32),
         radiance=table.emission.take(triangles.material[last], axis=1),
     )
