@@ -60,7 +60,8 @@ def permute(index, length, key):
     else:
         result = _walk(index, length, key)
     result += key
-    result %= _U(length)
+    # Modulo length; NumPy divides by vectors, but takes remainders one by one.
+    result -= result // _U(length) * _U(length)
     return result
 
 

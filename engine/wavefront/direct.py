@@ -7,34 +7,56 @@ from ..maths.vectors import dot
 from .mis import power_heuristic
 from .numbers import Dimension
 
+MOST_STRETCHED = 256
+"""Up to so many lights leave 16 bits of a number for the point on the light."""
+_MOST_SHARE = 4
 _SHORTENED = np.float32(1 - 4 * EPS32)
 
 
 def add_direct_light(plan, rays, surface, reflection, film):
     """Light that reaches the surface straight from one light, chosen and sampled; blocked by anything between."""
     world = plan.world
-    index, probability = plan.choose_light(plan, rays)
-    u2 = plan.numbers.two(rays, Dimension.LIGHT_POINT)
+    index, probability, u2 = plan.choose_light(plan, rays, plan.numbers.two(rays, Dimension.LIGHT_POINT))
     # Seen from where the shadow ray starts, so that it ends where it should.
     wi, distance, E, pdf = world.lights.sample(index, surface.o, u2)
     cos = dot(surface.ns, wi)
     f, scattered_pdf = reflection.eval(surface.ns, surface.wo, wi)
     L = rays.beta * f
-    L *= E * (cos * power_heuristic(pdf * probability, scattered_pdf) / probability)
+    E *= cos * power_heuristic(pdf * probability, scattered_pdf) / probability
+    L *= E
     # Light from below the geometric surface would leak through it.
-    brightest = np.maximum(np.maximum(L[0], L[1]), L[2])
-    lanes = np.nonzero((brightest > 0) & (cos > 0) & (dot(surface.n, wi) > 0))[0]
-    limit = distance.take(lanes) * _SHORTENED
-    blocked = world.accel.occluded(surface.o.take(lanes, axis=1), wi.take(lanes, axis=1), limit)
-    lanes = lanes.take(np.nonzero(~blocked)[0])
+    candidate = (np.maximum(np.maximum(L[0], L[1]), L[2]) > 0) & (cos > 0) & (dot(surface.n, wi) > 0)
+    lanes = np.nonzero(candidate & ~_blocked(world.accel, surface.o, wi, distance * _SHORTENED, candidate))[0]
     film.add(rays.slot.take(lanes), L.take(lanes, axis=1))
 
 
-def only_light(plan, rays):
+def _blocked(accel, o, d, limit, candidate):
+    """`accel.occluded` where `candidate` (N,); what it says elsewhere means nothing."""
+    count = np.count_nonzero(candidate)
+    if count * _MOST_SHARE > candidate.size * (_MOST_SHARE - 1):
+        # Packing costs more than a few rays of no length.
+        limit *= candidate
+        return accel.occluded(o, d, limit)
+    lanes = np.nonzero(candidate)[0]
+    blocked = np.zeros(candidate.size, bool)
+    blocked[lanes] = accel.occluded(o.take(lanes, axis=1), d.take(lanes, axis=1), limit.take(lanes))
+    return blocked
+
+
+def only_light(plan, rays, u2):
     """There is one light: no choice, and no random number."""
-    return None, 1.0
+    return None, 1.0, u2
 
 
-def one_of_the_lights(plan, rays):
-    """A light for each ray, in proportion to its power: indices and probabilities (N,)."""
-    return plan.world.lights.choose(plan.numbers.one(rays, Dimension.LIGHT_CHOICE))
+def one_of_few_lights(plan, rays, u2):
+    """A light for each ray in proportion to its power: indices and probabilities (N,), and what is left of u2.
+
+    The first number chooses, and its place within the interval of the chosen light goes on as a number of its own
+    (Shirley 1990): strata hold across the light's parts, and no further number is spent.
+    """
+    return plan.world.lights.choose_and_stretch(u2)
+
+
+def one_of_many_lights(plan, rays, u2):
+    """As `one_of_few_lights`, with a number of its own for the choice: one has not enough digits for both."""
+    return *plan.world.lights.choose(plan.numbers.one(rays, Dimension.LIGHT_CHOICE)), u2

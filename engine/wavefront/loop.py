@@ -49,12 +49,12 @@ def _trace(plan, rays, film, is_cancelled):
 def _only_hits(rays, hits):
     """The rays that hit something, and their hits."""
     missed = np.nonzero(hits.prim < 0)[0]
-    if missed.size * _FEW_SHARE > hits.prim.size or rays.depth == 0:
-        if not missed.size:
-            return rays, hits
-        lanes = np.nonzero(hits.prim >= 0)[0]
-        return rays.take(lanes), hits.take(lanes)
-    # Packing costs more than carrying a few idle paths to the end of the bounce. Without throughput they add nothing;
-    # triangle -1 is the last one.
-    rays.beta[:, missed] = 0
-    return rays, hits
+    if not missed.size:
+        return rays, hits
+    if rays.depth and missed.size * _FEW_SHARE < hits.prim.size:
+        # Packing costs more than carrying a few idle paths to the end of the bounce. Without throughput they add
+        # nothing; their triangle, -1, is the last one. (Camera rays must be packed: passes record where they hit.)
+        rays.beta[:, missed] = 0
+        return rays, hits
+    lanes = np.nonzero(hits.prim >= 0)[0]
+    return rays.take(lanes), hits.take(lanes)

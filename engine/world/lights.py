@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import Columns, columns
-from ..constants import LUMINANCE, PI
+from ..constants import LUMINANCE, ONE_MINUS_EPS32, PI
 from ..lights.triangle import TriangleLight
 from ..maths import discrete
 
@@ -87,6 +87,14 @@ class Lights:
         """Light indices (N,) and their probability (N,)."""
         index = discrete.choose(self.cdf, u1)
         return index, self.probability.take(index)
+
+    def choose_and_stretch(self, u2):
+        """As `choose` with u2[0] (N,), which is then stretched from the light's interval to [0, 1): adds u2 (2, N)."""
+        index, probability = self.choose(u2[0])
+        u2[0] -= np.concatenate(([0], self.cdf[:-1])).astype(np.float32).take(index)
+        u2[0] /= probability
+        np.clip(u2[0], 0, np.float32(ONE_MINUS_EPS32), out=u2[0])
+        return index, probability, u2
 
     def sample(self, index, p, u2):
         """A point on light `index` (N,), or on the only light (None): see `interfaces.Light.sample`."""
