@@ -8,6 +8,7 @@ from . import bsdfs, cameras, filters, integrators, lights, passes, samplers  # 
 from .bsdfs.lambert import Lambert
 from .bsdfs.phong import Phong
 from .cameras.perspective import PerspectiveCamera
+from .constants import VERSION
 from .errors import FileError, GlanzError, SceneError
 from .io.exr import write_exr
 from .io.scene_file import read_scene, write_scene
@@ -20,7 +21,7 @@ from .rendering import Image, Progress, Tile, render, render_image
 from .requirements import Requirements
 from .scene import Material, Mesh, Object, Scene, Settings, World
 
-__version__ = "0.1.0"
+__version__ = VERSION
 
 __all__ = [
     "AreaLight", "FileError", "GlanzError", "Image", "Lambert", "Material", "Mesh", "Object", "PerspectiveCamera",

@@ -2,6 +2,7 @@
 
 import math
 
+VERSION = "0.1.0"
 PI = math.pi
 INV_PI = 1.0 / math.pi
 EPS32 = 2.0**-24

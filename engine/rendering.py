@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from .constants import VERSION
 from .plan import Plan
 from .requirements import Requirements
 from .scene.validate import validate
@@ -99,6 +100,7 @@ def render_image(scene, settings, on_progress=None):
 def metadata(scene, settings):
     """What a file should say about how its picture was made, {str: str}."""
     return {
+        "glanz.version": VERSION,
         "glanz.scene": scene.name,
         "glanz.camera": scene.camera.name,
         "glanz.integrator": settings.integrator,

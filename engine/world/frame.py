@@ -10,6 +10,10 @@ from dataclasses import dataclass
 import numpy as np
 
 
+_MOST = 60
+"""The largest exponent of a scale: its square still fits into float32, which intensities need."""
+
+
 @dataclass(frozen=True)
 class Frame:
     """p_render = (p_world - origin) * scale.
@@ -26,7 +30,7 @@ class Frame:
         """Centred on `origin`, scaled so that the median of `distances` (M,) [m] falls into [1/2, 1)."""
         usable = distances[np.isfinite(distances) & (distances > 0)]
         median = float(np.median(usable)) if usable.size else 1.0
-        exponent = min(max(math.frexp(median)[1], -120), 120)
+        exponent = min(max(math.frexp(median)[1], -_MOST), _MOST)
         return cls(np.asarray(origin, np.float64), math.ldexp(1.0, -exponent))
 
     def points(self, p):

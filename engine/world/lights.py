@@ -54,6 +54,7 @@ class Lights:
     def of(cls, lamps, triangles, frame, radius):
         """From light values `lamps` and the columns of emissive `triangles`; `radius` [m] is the scene's, for suns."""
         groups, powers = [], []
+        lamps = [lamp for lamp in lamps if any(lamp.power())]
         for kind in dict.fromkeys(type(lamp) for lamp in lamps):
             same = [lamp for lamp in lamps if type(lamp) is kind]
             groups.append(Group(kind, columns([lamp.row(frame) for lamp in same]), len(powers), len(same)))
