@@ -3,10 +3,10 @@
 The engine brings compiled libraries (Embree). Where one is missing Blender must still start, and say so.
 """
 
-from functools import lru_cache
+from functools import cache
 
 
-@lru_cache(maxsize=1)
+@cache
 def _load():
     try:
         from .. import engine

@@ -25,7 +25,7 @@ class GlanzCaptureEngine(bpy.types.RenderEngine):
     bl_use_postprocess = False
 
     # What the next run shall do, and what came of it; Blender makes the instances, so the class carries both.
-    overrides = {}
+    overrides = None
     outcome = None
 
     def __init__(self, *args, **kwargs):

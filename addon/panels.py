@@ -11,7 +11,7 @@ class GlanzPanel:
     bl_space_type = "PROPERTIES"
     bl_region_type = "WINDOW"
     bl_context = "render"
-    COMPAT_ENGINES = {"GLANZ"}
+    COMPAT_ENGINES = frozenset({"GLANZ"})
 
     @classmethod
     def poll(cls, context):
@@ -75,7 +75,7 @@ class GLANZ_RENDER_PT_film(GlanzPanel, bpy.types.Panel):
 
 class GLANZ_RENDER_PT_performance(GlanzPanel, bpy.types.Panel):
     bl_label = "Performance"
-    bl_options = {"DEFAULT_CLOSED"}
+    bl_options = frozenset({"DEFAULT_CLOSED"})
 
     def draw(self, context):
         render = context.scene.render
@@ -101,7 +101,7 @@ class GLANZ_VIEWLAYER_PT_passes(GlanzPanel, bpy.types.Panel):
 class GLANZ_VIEWLAYER_PT_override(GlanzPanel, bpy.types.Panel):
     bl_label = "Override"
     bl_context = "view_layer"
-    bl_options = {"DEFAULT_CLOSED"}
+    bl_options = frozenset({"DEFAULT_CLOSED"})
 
     def draw(self, context):
         column = self.column()
@@ -110,18 +110,19 @@ class GLANZ_VIEWLAYER_PT_override(GlanzPanel, bpy.types.Panel):
                 column.prop(context.view_layer, name)
 
 
+_SHAPE_OF_LIGHT = {
+    "POINT": ("shadow_soft_size", "use_soft_falloff"),
+    "SPOT": ("shadow_soft_size", "use_soft_falloff", "spot_size", "spot_blend"),
+    "SUN": ("angle",),
+    "AREA": ("shape", "size", "size_y", "spread"),
+}
+
+
 class GLANZ_LIGHT_PT_light(GlanzPanel, bpy.types.Panel):
     """Everything about a light that Glanz renders; what this version of Blender lacks is skipped."""
 
     bl_label = "Light"
     bl_context = "data"
-
-    _SHAPE = {
-        "POINT": ("shadow_soft_size", "use_soft_falloff"),
-        "SPOT": ("shadow_soft_size", "use_soft_falloff", "spot_size", "spot_blend"),
-        "SUN": ("angle",),
-        "AREA": ("shape", "size", "size_y", "spread"),
-    }
 
     @classmethod
     def poll(cls, context):
@@ -135,7 +136,7 @@ class GLANZ_LIGHT_PT_light(GlanzPanel, bpy.types.Panel):
             if hasattr(light, name) and not (name == "temperature" and not light.use_temperature):
                 column.prop(light, name)
         column.separator()
-        for name in self._SHAPE[light.type]:
+        for name in _SHAPE_OF_LIGHT[light.type]:
             if name == "size_y" and light.shape in ("SQUARE", "DISK"):
                 continue
             column.prop(light, name)

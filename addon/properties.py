@@ -1,7 +1,7 @@
 """The settings of Glanz that a .blend file stores: `scene.glanz`."""
 
 import zlib
-from functools import lru_cache
+from functools import cache
 
 import bpy
 from bpy.props import EnumProperty, FloatProperty, IntProperty, PointerProperty
@@ -14,7 +14,7 @@ def stored_number(key):
     return zlib.crc32(key.encode()) & 0x7FFFFFFF
 
 
-@lru_cache(maxsize=None)
+@cache
 def enum_items(registry_name):
     """Items for a choice among the plug-ins of an engine registry; kept, for Blender does not own their strings."""
     engine = backend.engine()

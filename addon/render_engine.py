@@ -1,12 +1,11 @@
 """The render engine that Blender sees: export, render, write tiles, listen for Esc."""
 
-from contextlib import closing
+from contextlib import closing, suppress
 
 import bpy
 
 from . import backend, passes
 from .reports import Warnings, errors_shown
-from .results import write_tile
 from .status import Status
 
 
@@ -35,19 +34,20 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
 
     def render(self, depsgraph):
         """Called by Blender for each view layer of each frame."""
-        with errors_shown(self):
-            try:
-                self._render(depsgraph)
-            except Cancelled:
-                pass  # what is finished stays; Blender knows that it was cancelled
+        # Blender knows when it was cancelled; what is finished stays.
+        with errors_shown(self), suppress(Cancelled):
+            self._render(depsgraph)
 
     def _render(self, depsgraph):
         backend.load_or_raise()
         from ..engine import render
         from .export import export_scene
+        from .results import make_room, write_tile
         from .settings import settings_of
 
         settings = settings_of(depsgraph.scene_eval, depsgraph.view_layer_eval, width=self.resolution_x, height=self.resolution_y)
+        layer = depsgraph.view_layer.name
+        make_room(self, settings, layer)
         self.update_stats("", "Exporting the scene")
         camera = self.camera_override
         scene, notes = export_scene(
@@ -67,14 +67,18 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
             for step in progress:
                 warnings.show(step.warnings)
                 for tile in step.tiles:
-                    write_tile(self, tile, settings.region, depsgraph.view_layer.name)
+                    write_tile(self, tile, settings.region, layer)
                 status.show(step.done)
-                if self.test_break():
+                if self.is_cancelled():
                     break
         warnings.close()
 
+    def is_cancelled(self):
+        """Whether the user pressed Esc."""
+        return self.test_break()
+
     def _check(self):
-        if self.test_break():
+        if self.is_cancelled():
             raise Cancelled
 
 

@@ -8,6 +8,8 @@ from contextlib import contextmanager
 
 import numpy as np
 
+from ..engine import PASSES
+
 
 def flat_pixels(values):
     """(height, width, channels) with row 0 at the top, as the flat float32 array with row 0 at the bottom that Blender wants."""
@@ -37,6 +39,24 @@ def open_result(engine, place, layer, view=""):
         keep = True
     finally:
         engine.end_result(result, cancel=not keep)
+
+
+def make_room(engine, settings, layer):
+    """Let Blender allocate its picture now, before anything can go wrong.
+
+    It does so at the first result, and saving a picture that never had one is a crash; so is having no memory for it.
+    Raises MemoryError where the memory is not to be had.
+    """
+    x0, y0, x1, y1 = settings.region
+    channels = sum(len(PASSES[key].channels) for key in settings.passes)
+    # Blender's picture, and a copy of it for the display.
+    size = 2 * 4 * channels * (x1 - x0) * (y1 - y0)
+    try:
+        np.empty(size, np.uint8)
+    except MemoryError:
+        raise MemoryError(f"{x1 - x0}x{y1 - y0} px with {channels} channels take {size / 2**30:.1f} GB") from None
+    with open_result(engine, (0, 0, 1, 1), layer):
+        pass
 
 
 def write_tile(engine, tile, region, layer, view=""):

@@ -44,6 +44,7 @@ def border(fractions, width, height):
 
     Blender truncates in single precision; to differ by a pixel is to have no room in its result. The whole frame is ().
     """
-    left, right, bottom, top = (int(np.float32(f) * np.float32(n)) for f, n in zip(fractions, (width, width, height, height)))
+    sizes = (width, width, height, height)
+    left, right, bottom, top = (int(np.float32(f) * np.float32(n)) for f, n in zip(fractions, sizes, strict=True))
     edges = (left, height - top, right, height - bottom)
     return () if edges == (0, 0, width, height) else edges

@@ -4,7 +4,7 @@ import numpy as np
 
 from ...engine import Material
 from .closure import Closure, diffuse, merged, scaled_lobe
-from .nodes import has_nodes, output_node, Reader
+from .nodes import Reader, has_nodes, output_node
 from .principled import principled_lobes
 from .shaders import surface_of
 

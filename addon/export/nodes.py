@@ -91,7 +91,7 @@ class Reader:
     def number(self, node, identifier, default=0.0):
         """The constant of an input as a float; a colour counts with its luminance."""
         value = self._constant(node, identifier, default)
-        return sum(w * c for w, c in zip(_RGB_WEIGHTS, value)) if isinstance(value, tuple) else value
+        return sum(w * c for w, c in zip(_RGB_WEIGHTS, value, strict=True)) if isinstance(value, tuple) else value
 
     def _constant(self, node, identifier, default):
         socket = input_by_identifier(node, identifier)
@@ -101,7 +101,8 @@ class Reader:
         if output is not None:
             if output.node.type in ("RGB", "VALUE"):
                 return _value(output, default)
-            self.note(f"{identifier} of {node.bl_label} is linked to {output.node.bl_label}, which is not read; the socket's own value is used")
+            source = output.node.bl_label
+            self.note(f"{identifier} of {node.bl_label} is linked to {source}, which is not read; the socket's own value is used")
             end = socket
         return _value(end, default)
 

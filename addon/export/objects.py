@@ -126,13 +126,13 @@ class ObjectExport:
         matrices = np.stack(matrices)
         finite = is_placed(matrices)
         visible = finite & has_faces(matrices)
-        for part, is_finite, is_visible in zip(placed, finite, visible):
+        for part, is_finite, is_visible in zip(placed, finite, visible, strict=True):
             if not is_visible:
                 cause = "the scale leaves no surface" if is_finite else "the transform is not finite"
                 self.findings.note(f"{cause}, so it is left out", f"object '{part.name}'")
         return tuple(
             Object(name=part.name, mesh=part.mesh, world_from_object=matrix, materials=part.materials)
-            for part, matrix, is_visible in zip(placed, matrices, visible)
+            for part, matrix, is_visible in zip(placed, matrices, visible, strict=True)
             if is_visible
         )
 

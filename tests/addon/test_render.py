@@ -1,0 +1,211 @@
+"""F12: what is in the saved file, and that there is none when something went wrong."""
+
+import threading
+
+import bpy
+import numpy as np
+import pytest
+from glanz import engine
+from glanz.addon import render_engine, results
+from glanz.engine import rendering
+from glanz.tests.addon import blender
+
+
+@pytest.fixture
+def furnace():
+    """A white diffuse plane that fills the frame, 5 m below the camera, in a world of radiance 1: it looks like the world."""
+    blender.add_camera()
+    plane = blender.add_plane(size=20)
+    plane.data.materials.append(blender.new_material("White", "ShaderNodeBsdfDiffuse", Color=(1, 0.5, 0.25, 1)))
+    blender.set_world((1, 1, 1))
+    return plane
+
+
+def test_saved_pixels_are_the_radiance(furnace, tmp_path):
+    passes = blender.read_exr(blender.render(tmp_path / "a.exr"))
+    combined = passes["ViewLayer.Combined"]
+    assert combined.shape == (64, 64, 4)
+    np.testing.assert_allclose(combined, np.broadcast_to((1, 0.5, 0.25, 1), combined.shape), rtol=1e-4)
+
+
+def test_passes_are_those_of_the_view_layer(furnace, tmp_path):
+    layer = bpy.context.view_layer
+    layer.use_pass_z = layer.use_pass_normal = True
+    passes = blender.read_exr(blender.render(tmp_path / "a.exr"))
+    np.testing.assert_allclose(passes["ViewLayer.Depth"], 5, rtol=1e-5)
+    np.testing.assert_allclose(passes["ViewLayer.Normal"], np.broadcast_to((0, 0, 1), (64, 64, 3)), atol=1e-6)
+    layer.use_pass_normal = False
+    assert "ViewLayer.Normal" not in blender.read_exr(blender.render(tmp_path / "b.exr"))
+
+
+def test_row_0_is_at_the_top_and_column_0_on_the_left(tmp_path):
+    blender.add_camera()
+    lamp = blender.new_material("Lamp", "ShaderNodeEmission", Color=(1, 1, 1, 1), Strength=1)
+    blender.add_plane(size=2, location=(-1.2, 1, 0)).data.materials.append(lamp)
+    pixels = blender.read_exr(blender.render(tmp_path / "a.exr"))["ViewLayer.Combined"][..., 0]
+    assert pixels[:32, :32].sum() > 100
+    assert pixels[32:].sum() == pixels[:, 40:].sum() == 0
+
+
+def test_three_ways_of_rendering_give_the_same_bits(furnace, tmp_path):
+    pixels = blender.read_exr(blender.render(tmp_path / "a.exr"))["ViewLayer.Combined"]
+    from glanz.addon.capture import capture
+
+    scene, settings, _ = capture()
+    np.testing.assert_array_equal(pixels, engine.render_image(scene, settings).passes["Combined"])
+
+
+@pytest.mark.parametrize("is_cropped", [False, True])
+def test_a_border_shows_a_part_of_the_same_picture(is_cropped, tmp_path):
+    blender.add_camera(width=70, height=50)
+    blender.add_tetrahedron()
+    blender.set_world((1, 0.8, 0.6))
+    whole = blender.read_exr(blender.render(tmp_path / "whole.exr"))["ViewLayer.Combined"]
+    render = bpy.context.scene.render
+    render.use_border, render.use_crop_to_border = True, is_cropped
+    render.border_min_x, render.border_max_x, render.border_min_y, render.border_max_y = 0.3, 0.9, 0.2, 0.71
+    part = blender.read_exr(blender.render(tmp_path / "part.exr"))["ViewLayer.Combined"]
+    # From the left 21 to 63, from the bottom 10 to 35.
+    expected = whole[15:40, 21:63]
+    if is_cropped:
+        np.testing.assert_array_equal(part, expected)
+    else:
+        np.testing.assert_array_equal(part[15:40, 21:63], expected)
+        assert part.shape == (50, 70, 4)
+        assert part[:15].max() == part[:, :21].max() == 0
+
+
+def test_resolution_percentage_scales_the_frame(furnace, tmp_path):
+    bpy.context.scene.render.resolution_percentage = 25
+    assert blender.read_exr(blender.render(tmp_path / "a.exr"))["ViewLayer.Combined"].shape == (16, 16, 4)
+
+
+def test_each_view_layer_gets_its_own_picture(furnace, tmp_path):
+    other = bpy.context.scene.view_layers.new("Other")
+    other.material_override = blender.new_material("Red", "ShaderNodeBsdfDiffuse", Color=(1, 0, 0, 1))
+    other.use_pass_z = True
+    passes = blender.read_exr(blender.render(tmp_path / "a.exr"))
+    np.testing.assert_allclose(passes["ViewLayer.Combined"][..., 1], 0.5, rtol=1e-4)
+    np.testing.assert_array_equal(passes["Other.Combined"][..., 1], 0)
+    assert "Other.Depth" in passes
+    assert "ViewLayer.Depth" not in passes
+
+
+def test_an_animation_renders_every_frame_as_it_is_then(furnace, tmp_path):
+    scene = bpy.context.scene
+    furnace.location.z = 0
+    furnace.keyframe_insert("location", frame=1)
+    furnace.location.z = 2
+    furnace.keyframe_insert("location", frame=2)
+    scene.view_layers[0].use_pass_z = True
+    for frame, depth in ((1, 5), (2, 3)):
+        scene.frame_set(frame)
+        passes = blender.read_exr(blender.render(tmp_path / f"{frame}.exr"))
+        np.testing.assert_allclose(passes["ViewLayer.Depth"], depth, rtol=1e-5)
+
+
+def _fail(error):
+    def fail(*args, **kwargs):
+        raise error
+
+    return fail
+
+
+@pytest.mark.parametrize("error", [ValueError("broken"), SystemExit(0), KeyboardInterrupt(), MemoryError()])
+def test_an_error_in_the_export_fails_the_operator_and_writes_no_file(error, furnace, tmp_path, monkeypatch):
+    monkeypatch.setattr("glanz.addon.export.objects.export_mesh", _fail(error))
+    with pytest.raises(RuntimeError, match=r"object 'Plane'|Glanz") as caught:
+        blender.render(tmp_path / "a.exr")
+    if isinstance(error, ValueError):
+        assert "object 'Plane' cannot be exported: ValueError: broken" in str(caught.value)
+    assert not (tmp_path / "a.exr").exists()
+
+
+def test_an_error_in_a_worker_fails_the_operator_and_leaves_no_thread(furnace, tmp_path, monkeypatch):
+    monkeypatch.setattr("glanz.engine.rendering.trace", _fail(FloatingPointError("worker broke")))
+    with pytest.raises(RuntimeError, match="worker broke"):
+        blender.render(tmp_path / "a.exr")
+    assert not (tmp_path / "a.exr").exists()
+    assert not [t for t in threading.enumerate() if t.name.startswith("glanz")]
+
+
+def test_an_error_while_a_tile_is_written_ends_the_result_and_fails(furnace, tmp_path, monkeypatch):
+    monkeypatch.setattr("glanz.addon.results.flat_pixels", lambda values: np.zeros(3, np.float32))
+    with pytest.raises(RuntimeError, match="Glanz failed"):
+        blender.render(tmp_path / "a.exr")
+    monkeypatch.undo()
+    # Blender is as good as before.
+    assert blender.read_exr(blender.render(tmp_path / "b.exr"))["ViewLayer.Combined"][0, 0, 0] == pytest.approx(1, rel=1e-4)
+
+
+def test_an_unsupported_camera_is_named(furnace, tmp_path):
+    bpy.context.scene.camera.data.type = "ORTHO"
+    with pytest.raises(RuntimeError, match="camera 'Camera' has type ORTHO"):
+        blender.render(tmp_path / "a.exr")
+    assert not (tmp_path / "a.exr").exists()
+
+
+class _CancelledAfter:
+    """Esc is pressed once this many tiles were written. A tile starts when the last one was written."""
+
+    def __init__(self, monkeypatch, tiles):
+        self.written = []
+        self._permits = threading.Semaphore(1)
+        self._write, self._trace = results.write_tile, rendering.trace
+        monkeypatch.setattr(results, "write_tile", self._write_tile)
+        monkeypatch.setattr(rendering, "trace", self._trace_when_allowed)
+        monkeypatch.setattr(render_engine.GlanzRenderEngine, "is_cancelled", lambda engine: len(self.written) >= tiles)
+
+    def _write_tile(self, engine, tile, *place):
+        self._write(engine, tile, *place)
+        self.written.append(tile)
+        self._permits.release()
+
+    def _trace_when_allowed(self, plan, rays, film, is_cancelled):
+        while not self._permits.acquire(timeout=0.01):
+            if is_cancelled():
+                return False
+        return self._trace(plan, rays, film, is_cancelled)
+
+
+def test_cancelling_keeps_finished_tiles_and_leaves_no_thread(furnace, tmp_path, monkeypatch):
+    scene = bpy.context.scene
+    scene.glanz.tile_size = 16
+    scene.render.threads_mode, scene.render.threads = "FIXED", 1
+    cancelled = _CancelledAfter(monkeypatch, 3)
+    pixels = blender.read_exr(blender.render(tmp_path / "a.exr"))["ViewLayer.Combined"]
+    assert not [t for t in threading.enumerate() if t.name.startswith("glanz")]
+    assert len(cancelled.written) == 3
+    is_finished = np.zeros((64, 64), bool)
+    for tile in cancelled.written:
+        is_finished[tile.y : tile.y + 16, tile.x : tile.x + 16] = True
+    np.testing.assert_array_equal(pixels[..., 3] == 1, is_finished)
+    np.testing.assert_allclose(pixels[is_finished][:, 0], 1, rtol=1e-4)
+
+
+def test_cancelling_stops_the_export(furnace, tmp_path, monkeypatch):
+    cancelled = _CancelledAfter(monkeypatch, 0)
+    pixels = blender.read_exr(blender.render(tmp_path / "a.exr"))["ViewLayer.Combined"]
+    assert not cancelled.written
+    assert not pixels.any()
+
+
+def test_tiles_and_threads_do_not_change_the_picture(tmp_path):
+    blender.add_camera()
+    blender.add_tetrahedron()
+    blender.set_world((1, 0.8, 0.6))
+    scene = bpy.context.scene
+    scene.render.threads_mode = "FIXED"
+    pictures = []
+    for tile_size, threads in ((0, 1), (16, 5), (64, 2)):
+        scene.glanz.tile_size, scene.render.threads = tile_size, threads
+        pictures.append(blender.read_exr(blender.render(tmp_path / f"{threads}.exr"))["ViewLayer.Combined"])
+    np.testing.assert_array_equal(pictures[0], pictures[1])
+    np.testing.assert_array_equal(pictures[0], pictures[2])
+
+
+def test_an_empty_scene_shows_the_world(tmp_path):
+    blender.add_camera()
+    blender.set_world((0.5, 0.25, 0), 2)
+    pixels = blender.read_exr(blender.render(tmp_path / "a.exr"))["ViewLayer.Combined"]
+    np.testing.assert_allclose(pixels, np.broadcast_to((1, 0.5, 0, 1), pixels.shape), rtol=1e-6)
