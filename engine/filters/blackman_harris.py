@@ -19,7 +19,7 @@ class BlackmanHarris:
 
     @staticmethod
     def offset(u2, width):
-        """The inverse distribution, tabulated and linear between its entries; its moments are right to 1e-4."""
+        """The inverse distribution, tabulated and linear between its entries; its second moment is right to 1e-4."""
         table = _inverse_cdf()
         place = u2 * _STEPS
         below = place.astype(np.int32)
