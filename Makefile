@@ -1,0 +1,74 @@
+# Glanz: set up, render, test, build. Needs git, make and Python >= 3.11 with venv and pip; everything else comes into .venv.
+#
+#   PYTHON=python3.13 make test    with another Python, in .venv-3.13
+#   BPY=4.2.23 make test           with another Blender (4.2, 4.5, 5.0 on Python 3.11; 5.2 on 3.13); BPY=none: without
+
+ifeq ($(origin PYTHON), undefined)
+PYTHON := python3
+VENV := .venv
+endif
+VERSION := $(shell $(PYTHON) -c 'import sys; print("%d.%d" % sys.version_info[:2])')
+VENV ?= .venv-$(VERSION)
+ifdef BPY
+VENV := $(VENV)-bpy-$(BPY)
+EXTRAS := cli,test,bench
+else
+EXTRAS := cli,test,bench,blender
+endif
+ifneq ($(filter-out none,$(BPY)),)
+BLENDER := bpy==$(BPY)
+endif
+
+READY := $(VENV)/.ready-$(VERSION)
+RUN := $(VENV)/bin/python
+
+.DEFAULT_GOAL := help
+.PHONY: help setup render test bench extension extension-linux lint clean distclean
+
+help:
+	@echo "make render           render sample_scenes/cornell_box.blend to out/"
+	@echo "make test             run all tests"
+	@echo "make bench            measure speed against Cycles"
+	@echo "make extension        build the Blender extension for every platform in dist/"
+	@echo "make extension-linux  build it for Linux only"
+	@echo "make lint             check the style"
+	@echo "make clean            remove what was built; make distclean: the environments and wheels too"
+
+setup: $(READY)
+
+# The stamp comes last, so a set-up that failed is done again.
+$(READY): pyproject.toml tools/check_bpy.py
+	@test -n "$(VERSION)" || { echo "glanz: '$(PYTHON)' does not run; give another, as in: PYTHON=python3.13 make $(MAKECMDGOALS)" >&2; exit 1; }
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "glanz: Python $(VERSION) is too old, 3.11 or newer is needed" >&2; exit 1; }
+	@rm -f $(VENV)/.ready-*
+	@test "$$($(RUN) -c 'import pip, sys; print("%d.%d" % sys.version_info[:2])' 2>&1)" = "$(VERSION)" || $(PYTHON) -m venv --clear $(VENV) \
+		|| { echo "glanz: no virtual environment; on Debian or Ubuntu: sudo apt-get install python3-venv" >&2; exit 1; }
+	$(RUN) -m pip install --disable-pip-version-check --editable ".[$(EXTRAS)]" $(BLENDER)
+	@$(RUN) tools/check_bpy.py
+	@touch $@
+
+render: $(READY)
+	@mkdir -p out
+	$(VENV)/bin/glanz render sample_scenes/cornell_box.blend -o out/cornell_box.exr -o out/cornell_box.png
+
+test: $(READY)
+	$(RUN) -m pytest
+
+bench: $(READY)
+	$(RUN) -m benchmarks
+
+extension: $(READY)
+	$(RUN) tools/build_extension.py
+
+extension-linux: $(READY)
+	$(RUN) tools/build_extension.py linux-x64
+
+lint: $(READY)
+	$(RUN) -m ruff check .
+
+clean:
+	rm -rf build dist out *.egg-info .pytest_cache .ruff_cache .hypothesis
+	find . -path './.venv*' -prune -o -name __pycache__ -type d -prune -exec rm -rf {} +
+
+distclean: clean
+	rm -rf .venv .venv-* wheels

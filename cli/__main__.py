@@ -1,0 +1,5 @@
+"""`python -m glanz.cli`."""
+
+from .main import run
+
+run()

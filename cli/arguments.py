@@ -1,0 +1,129 @@
+"""What may stand on the command line. Nothing here imports the engine, so that help and mistakes come at once."""
+
+import argparse
+import re
+
+from .outputs import SUFFIXES
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message):
+        self.exit(2, f"glanz: error: {message} (see: {self.prog} --help)\n")
+
+
+def parser(version):
+    """The parser of all commands; the name of the chosen one is in `command`."""
+    top = _Parser(prog="glanz", description="Render Blender scenes with Glanz.", allow_abbrev=False)
+    top.add_argument("--version", action="version", version=f"glanz {version}")
+    commands = top.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=_Parser)
+    _add_render(commands)
+    _add_info(commands)
+    _add_export(commands)
+    return top
+
+
+def _add_render(commands):
+    command = commands.add_parser(
+        "render",
+        allow_abbrev=False,
+        help="render a scene to EXR or PNG files",
+        description="Render FILE. What is not given here is as the file says. A frame number replaces the # in the names of the outputs.",
+    )
+    _add_file(command)
+    command.add_argument(
+        "-o", "--output", action="append", default=[], metavar="OUT", help="file to write, .exr or .png; may be given more than once"
+    )
+    _add_scene(command)
+    frames = command.add_mutually_exclusive_group()
+    _add_frame(frames)
+    frames.add_argument("--frames", type=frame_range, metavar="A-B[:STEP]", help="frames A to B, in steps of STEP")
+    for name, kind, text in (
+        ("integrator", str, "how light is followed: path"),
+        ("sampler", str, "random numbers: stratified, random"),
+        ("samples", int, "paths per pixel"),
+        ("max-depth", int, "bounces; 0 is direct light only"),
+        ("seed", int, "another number, other noise"),
+        ("threads", int, "worker threads; 0: one per processor"),
+        ("pixel-filter", str, "pixel filter: box, blackman_harris"),
+    ):
+        command.add_argument(f"--{name}", type=kind, metavar=name[0].upper() if kind is str else "N", help=text)
+    command.add_argument("--resolution", type=resolution, metavar="WxH", help="size of the full frame in pixels")
+    command.add_argument(
+        "--border", type=border, metavar="X0,Y0,X1,Y1", help="render this part only: fractions of the frame from the bottom left, as in Blender"
+    )
+    command.add_argument("--quiet", action="store_true", help="print warnings and errors only")
+
+
+def _add_info(commands):
+    command = commands.add_parser(
+        "info", allow_abbrev=False, help="what a scene requires, and what is approximated or ignored", description="Look at FILE, render nothing."
+    )
+    _add_file(command)
+    _add_scene(command)
+    _add_frame(command)
+    command.add_argument("--json", action="store_true", help="print JSON")
+
+
+def _add_export(commands):
+    command = commands.add_parser(
+        "export",
+        allow_abbrev=False,
+        help="write a scene that renders without Blender",
+        description="Write one frame of a .blend file as a scene file.",
+    )
+    _add_file(command)
+    command.add_argument("-o", "--output", required=True, metavar="SCENE", help="scene file to write")
+    _add_scene(command)
+    _add_frame(command)
+
+
+def _add_file(command):
+    command.add_argument("file", metavar="FILE", help="a .blend file, or a scene file written by glanz export")
+
+
+def _add_scene(command):
+    command.add_argument("--scene", metavar="S", help="name of the scene in the .blend file; the active one if not given")
+
+
+def _add_frame(command):
+    command.add_argument("--frame", type=int, metavar="N", help="frame number; the file's current one if not given")
+
+
+def frame_range(text):
+    """The frames of `A-B` or `A-B:STEP`, as a range; numbers may be negative."""
+    match = re.fullmatch(r"(-?\d+)-(-?\d+)(?::(\d+))?", text)
+    first, last, step = (int(group or 1) for group in match.groups()) if match else (1, 0, 1)
+    if first > last or step < 1:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a range of frames, such as 1-250 or 1-250:10")
+    return range(first, last + 1, step)
+
+
+def resolution(text):
+    """(width, height) of `WxH`."""
+    match = re.fullmatch(r"([1-9]\d*)x([1-9]\d*)", text)
+    if not match:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a size in pixels, such as 1920x1080")
+    return int(match[1]), int(match[2])
+
+
+def border(text):
+    """(x0, y0, x1, y1) of four fractions with commas between them."""
+    try:
+        x0, y0, x1, y1 = (float(part) for part in text.split(","))
+    except ValueError:
+        x0, y0, x1, y1 = 1, 1, 0, 0
+    if not (0 <= x0 < x1 <= 1 and 0 <= y0 < y1 <= 1):
+        raise argparse.ArgumentTypeError(f"'{text}' is not left,bottom,right,top in fractions of the frame, such as 0,0,0.5,0.5")
+    return x0, y0, x1, y1
+
+
+def check_outputs(arguments):
+    """Raises ValueError, with a text for users, unless the outputs are names of pictures, each a different one."""
+    if arguments.command == "export" and arguments.output.lower().endswith(".blend"):
+        raise ValueError(f"output '{arguments.output}' would be taken for a .blend file; give it another ending, such as .glanz")
+    if arguments.command == "render":
+        for path in arguments.output:
+            if not path.lower().endswith(SUFFIXES):
+                raise ValueError(f"output '{path}' is neither .exr nor .png")
+        if len(set(arguments.output)) < len(arguments.output):
+            raise ValueError("an output is given twice")

@@ -1,0 +1,108 @@
+"""What the commands do."""
+
+import dataclasses
+import json
+
+from ..addon.settings import border as border_in_pixels
+from ..engine import Requirements, SceneError, __version__, render_image, write_exr, write_scene
+from ..engine.io.atomic import check_writable
+from ..engine.scene.validate import validate
+from .outputs import default_output, numbered
+from .sources import open_source
+
+OVERRIDES = ("integrator", "sampler", "samples", "max_depth", "seed", "threads", "pixel_filter")
+"""Arguments that stand for settings of the same name."""
+
+
+def render(arguments, terminal):
+    """Render every frame asked for to every output asked for."""
+    outputs = arguments.output or [default_output(arguments.file)]
+    frames = arguments.frames if arguments.frames is not None else (arguments.frame,)
+    is_sequence = arguments.frames is not None
+    for frame in frames:
+        for output in outputs:
+            # Before the work, not after it.
+            check_writable(numbered(output, frame, is_sequence))
+    source = open_source(arguments.file, arguments.scene, terminal.keep_stdout_for_us)
+    for frame in frames:
+        shot = source.shot(frame, arguments.resolution)
+        settings = _overridden(shot.settings, arguments)
+        for warning in shot.warnings:
+            terminal.warn(warning)
+        with terminal.stopper.orderly():
+            image = _picture(shot, settings, terminal)
+            for output in outputs:
+                path = numbered(output, shot.frame, is_sequence)
+                _write(image, path, source)
+                terminal.wrote(path)
+
+
+def info(arguments, terminal):
+    """Say what the scene requires and what is approximated or ignored."""
+    shot = open_source(arguments.file, arguments.scene, terminal.keep_stdout_for_us).shot(arguments.frame)
+    scene, warnings = validate(shot.scene, shot.settings)
+    settings = dataclasses.asdict(shot.settings)
+    requirements = Requirements.of(scene, shot.settings)
+    warnings = [*shot.warnings, *warnings]
+    counts = {
+        "objects": len(scene.objects),
+        "triangles": sum(o.mesh.triangles.shape[1] for o in scene.objects),
+        "lights": len(scene.lights),
+    }
+    if arguments.json:
+        content = {"file": arguments.file, "scene": scene.name, "frame": shot.frame, "counts": counts, "settings": settings}
+        terminal.say(json.dumps(content | {"requirements": requirements.as_dict(), "warnings": warnings}, indent=2))
+        return
+    frame = "" if shot.frame is None else f", frame {shot.frame}"
+    terminal.say(f"scene '{scene.name}'{frame}: " + ", ".join(f"{name} {count}" for name, count in counts.items()))
+    terminal.say("settings: " + ", ".join(f"{name} {value}" for name, value in settings.items()))
+    terminal.say("requires:")
+    terminal.say("\n".join(f"  {line}" for line in str(requirements).splitlines()))
+    terminal.say("approximated or ignored:" if warnings else "nothing is approximated or ignored")
+    for warning in warnings:
+        terminal.say(f"  {warning}")
+
+
+def export(arguments, terminal):
+    """Write one frame as a scene file."""
+    check_writable(arguments.output)
+    shot = open_source(arguments.file, arguments.scene, terminal.keep_stdout_for_us).shot(arguments.frame)
+    for warning in shot.warnings:
+        terminal.warn(warning)
+    with terminal.stopper.orderly():
+        write_scene(arguments.output, shot.scene, shot.settings)
+    terminal.wrote(arguments.output)
+
+
+def _overridden(settings, arguments):
+    """`settings` with what the command line says instead. Raises SceneError naming the setting."""
+    values = {name: getattr(arguments, name) for name in OVERRIDES if getattr(arguments, name) is not None}
+    if arguments.border:
+        x0, y0, x1, y1 = arguments.border
+        values["border"] = border_in_pixels((x0, x1, y0, y1), settings.width, settings.height)
+    return dataclasses.replace(settings, **values)
+
+
+def _picture(shot, settings, terminal):
+    x0, y0, x1, y1 = settings.region
+    title = f"{shot.scene.name}{'' if shot.frame is None else f', frame {shot.frame}'}: {x1 - x0}x{y1 - y0}, {settings.samples} samples"
+    with terminal.progress(title) as show:
+
+        def on_progress(progress):
+            for warning in progress.warnings:
+                terminal.warn(warning)
+            show(progress.done)
+            terminal.stopper.check()
+
+        image = render_image(shot.scene, settings, on_progress)
+    if not image.passes:
+        raise SceneError("no picture came out: the settings name no passes")
+    more = {"glanz.version": __version__} | ({} if shot.frame is None else {"glanz.frame": str(shot.frame)})
+    return dataclasses.replace(image, metadata=image.metadata | more)
+
+
+def _write(image, path, source):
+    if path.lower().endswith(".exr"):
+        write_exr(path, image)
+        return
+    source.save_png(image, path)

@@ -1,0 +1,104 @@
+"""Where scenes come from: a .blend file, through Blender, or a scene file, without."""
+
+import dataclasses
+import os
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..engine import FileError, SceneError, read_scene
+from ..engine.io.png import write_png
+from .window import fitted
+
+CURE = "install it with: pip install 'glanz[blender]', on Python 3.11 or 3.13; or use a scene file, written by glanz export elsewhere"
+
+
+@dataclass(frozen=True)
+class Shot:
+    """One picture to make: the engine's values, the frame's number (None: a file without frames), what was approximated."""
+
+    scene: object
+    settings: object
+    frame: int | None
+    warnings: tuple = ()
+
+
+def open_source(path, scene_name, before_blender):
+    """The source for `path`, a .blend file or a scene file; `before_blender` is called before Blender is loaded.
+
+    Raises FileError or SceneError, naming the cause.
+    """
+    if not os.path.lexists(path):
+        raise FileError(f"cannot read '{path}': file not found")
+    if Path(path).suffix.lower() == ".blend":
+        return _Blend(path, scene_name, before_blender)
+    return _SceneFile(path, scene_name)
+
+
+class _Blend:
+    """A .blend file, opened by Blender as a Python module."""
+
+    def __init__(self, path, scene_name, before_blender):
+        try:
+            with open(path, "rb"):
+                pass
+        except OSError as error:
+            raise FileError(f"cannot read '{path}': {error.strerror}") from error
+        before_blender()
+        try:
+            import bpy  # noqa: F401 - asks whether there is one
+        except ImportError as error:
+            raise FileError(f"cannot read '{path}': .blend files need Blender's Python module bpy ({error}); {CURE}") from error
+        from ..addon import capture
+
+        self._capture = capture
+        self._scene_name = scene_name
+        capture.open_blend(path)
+
+    def shot(self, frame=None, size=None):
+        """The `Shot` of a frame, None: the current one; `size` (width, height) replaces the file's resolution."""
+        overrides = {"width": size[0], "height": size[1]} if size else {}
+        scene, settings, warnings = self._capture.capture(frame, self._scene_name, overrides=overrides)
+        return Shot(scene, settings, self._current_frame() if frame is None else frame, tuple(warnings))
+
+    def save_png(self, image, path):
+        """Write `image` through the scene's own view transform."""
+        self._capture.save_png(image, path, self._scene_name)
+
+    def _current_frame(self):
+        import bpy
+
+        return (bpy.data.scenes[self._scene_name] if self._scene_name else bpy.context.scene).frame_current
+
+
+class _SceneFile:
+    """A scene file: one frame, read without Blender."""
+
+    def __init__(self, path, scene_name):
+        self._path = path
+        self._scene, self._settings = read_scene(path)
+        if scene_name not in (None, self._scene.name):
+            raise SceneError(f"'{path}' has no scene '{scene_name}'; it holds: {self._scene.name}")
+
+    def shot(self, frame=None, size=None):
+        """The one `Shot`; `size` (width, height) replaces its resolution, and the longer side keeps its field of view."""
+        if frame is not None:
+            raise SceneError(f"'{self._path}' is a scene file, which holds one frame without a number")
+        if not size:
+            return Shot(self._scene, self._settings, None)
+        old = self._settings
+        border = tuple(
+            round(edge * new / whole) for edge, new, whole in zip(old.border, size * 2, (old.width, old.height) * 2, strict=False)
+        )
+        settings = dataclasses.replace(old, width=size[0], height=size[1], border=border)
+        return Shot(fitted(self._scene, (old.width, old.height), size), settings, None)
+
+    def save_png(self, image, path):
+        """Write `image` in plain sRGB."""
+        write_png(path, image)
+
+
+def is_blender_fragile():
+    """Whether the loaded Blender, if any, may crash (4.2) or hang (4.5) when Python ends."""
+    bpy = sys.modules.get("bpy")
+    return bpy is not None and bpy.app.version < (5, 0, 0)
