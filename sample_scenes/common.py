@@ -1,0 +1,199 @@
+"""What the scripts of the sample scenes share. Needs Blender as a module (`bpy`) and the package `glanz`."""
+
+import math
+import os
+import sys
+from pathlib import Path
+
+import bpy
+from mathutils import Matrix, Vector
+
+
+def new_scene(name, width, height, samples, max_depth):
+    """An empty scene with a black world, set up for Glanz; Cycles is set to compute the same picture."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    _register_glanz()
+    scene = bpy.context.scene
+    scene.name = name
+    scene.render.engine = "GLANZ"
+    scene.render.resolution_x, scene.render.resolution_y = width, height
+    scene.render.resolution_percentage = 100
+    scene.glanz.samples, scene.glanz.max_depth = samples, max_depth
+    scene.display_settings.display_device = "sRGB"
+    scene.view_settings.view_transform = "Standard"
+    scene.view_settings.look = "None"
+    scene.render.image_settings.file_format = "PNG"
+    unbiased_cycles(scene, samples, max_depth)
+    scene.world = world((0.0, 0.0, 0.0), 0.0)
+    return scene
+
+
+def _register_glanz():
+    try:
+        import glanz
+    except ImportError as error:
+        raise SystemExit(f"cannot import glanz ({error}); install it first, as `make setup` does") from None
+    glanz.register()
+
+
+def unbiased_cycles(scene, samples, max_depth):
+    """Settings under which Cycles cuts nothing off, so that pictures can be compared; without Cycles nothing happens."""
+    if not hasattr(scene, "cycles"):
+        return
+    cycles = scene.cycles
+    cycles.samples = samples
+    cycles.use_adaptive_sampling = False
+    cycles.use_denoising = False
+    cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0.0
+    cycles.light_sampling_threshold = 0.0
+    cycles.blur_glossy = 0.0
+    cycles.caustics_reflective = cycles.caustics_refractive = True
+    cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = max_depth
+    cycles.transmission_bounces = cycles.transparent_max_bounces = max_depth
+    cycles.pixel_filter_type = "BLACKMAN_HARRIS"
+    cycles.filter_width = 1.5
+
+
+def save(scene, script):
+    """Write the .blend file named on the command line, or the one beside `script`, and leave.
+
+    Leaves without the interpreter's clean-up, which crashes in some versions of the module `bpy`.
+    """
+    path = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(script).with_suffix(".blend")
+    bpy.context.preferences.filepaths.save_version = 0  # no .blend1 beside it
+    bpy.ops.wm.save_as_mainfile(filepath=str(path.resolve()), compress=True)
+    print(f"wrote {path}: {len(scene.objects)} objects, {path.stat().st_size} bytes")
+    sys.stdout.flush()
+    os._exit(0)
+
+
+# --- the world, cameras and lights ------------------------------------------------------------------------------------
+
+
+def world(colour, strength):
+    """A world of constant colour."""
+    made = bpy.data.worlds.new("World")
+    made.use_nodes = True
+    background = made.node_tree.nodes["Background"]
+    background.inputs["Color"].default_value = (*colour, 1.0)
+    background.inputs["Strength"].default_value = strength
+    return made
+
+
+def camera(scene, position, target, lens):
+    """The scene's camera at `position`, looking at `target` [m], with a focal length of `lens` [mm]."""
+    data = bpy.data.cameras.new("Camera")
+    data.lens = lens
+    made = add(scene, "Camera", data, look_at(position, target))
+    scene.camera = made
+    return made
+
+
+def look_at(position, target):
+    """The matrix that stands at `position` and looks along -z at `target`, y up."""
+    position, target = Vector(position), Vector(target)
+    rotation = (target - position).to_track_quat("-Z", "Y")
+    return Matrix.Translation(position) @ rotation.to_matrix().to_4x4()
+
+
+def light(scene, name, kind, position, target, energy, **attributes):
+    """A light of Blender's `kind` that looks at `target`; `attributes` go to its data."""
+    data = bpy.data.lights.new(name, kind)
+    data.energy = energy
+    for attribute, value in attributes.items():
+        setattr(data, attribute, value)
+    return add(scene, name, data, look_at(position, target))
+
+
+def add(scene, name, data, matrix=None, parent=None, collection=None):
+    """An object with `data`, placed by `matrix`, in `collection` or the scene's own."""
+    made = bpy.data.objects.new(name, data)
+    (collection or scene.collection).objects.link(made)
+    made.parent = parent
+    if matrix is not None:
+        made.matrix_world = matrix
+    return made
+
+
+# --- materials --------------------------------------------------------------------------------------------------------
+
+
+def diffuse(name, colour):
+    """Ideal diffuse reflection (Lambert)."""
+    return _material(name, "ShaderNodeBsdfDiffuse", colour, Roughness=0.0)
+
+
+def glossy(name, colour, roughness):
+    """A mirror lobe of Blender's roughness."""
+    return _material(name, "ShaderNodeBsdfGlossy", colour, Roughness=roughness)
+
+
+def emission(name, colour, strength):
+    """Light of radiance `colour` times `strength`."""
+    return _material(name, "ShaderNodeEmission", colour, Strength=strength)
+
+
+def _material(name, node_type, colour, **inputs):
+    made = bpy.data.materials.new(name)
+    made.use_nodes = True
+    made.diffuse_color = (*colour, 1.0)  # what the solid viewport shows
+    tree = made.node_tree
+    tree.nodes.clear()
+    shader = tree.nodes.new(node_type)
+    output = tree.nodes.new("ShaderNodeOutputMaterial")
+    output.location = (300, 0)
+    shader.inputs["Color"].default_value = (*colour, 1.0)
+    for key, value in inputs.items():
+        shader.inputs[key].default_value = value
+    tree.links.new(shader.outputs[0], output.inputs["Surface"])
+    return made
+
+
+# --- meshes -----------------------------------------------------------------------------------------------------------
+
+
+def mesh(name, vertices, faces, materials=(), smooth=False, material_indices=None):
+    """A mesh from lists; faces counter-clockwise seen from the front."""
+    made = bpy.data.meshes.new(name)
+    made.from_pydata([tuple(v) for v in vertices], [], faces)
+    made.polygons.foreach_set("use_smooth", [smooth] * len(faces))
+    if material_indices is not None:
+        made.polygons.foreach_set("material_index", material_indices)
+    for material in materials:
+        made.materials.append(material)
+    made.update()
+    return made
+
+
+def quad(name, corner, side_a, side_b, material):
+    """The parallelogram at `corner` along `side_a` and `side_b`; its front is where a x b points."""
+    c, a, b = Vector(corner), Vector(side_a), Vector(side_b)
+    return mesh(name, [c, c + a, c + a + b, c + b], [(0, 1, 2, 3)], [material])
+
+
+def box(name, size, material):
+    """A box of `size` (x, y, z) [m] that stands on the origin."""
+    x, y, z = 0.5 * size[0], 0.5 * size[1], size[2]
+    vertices = [(sx * x, sy * y, h) for h in (0.0, z) for sx, sy in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    faces = [(3, 2, 1, 0), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
+    return mesh(name, vertices, faces, [material])
+
+
+def sphere(name, radius, material, segments=64, rings=32):
+    """A smooth sphere about the origin: 2 segments (rings - 1) triangles once triangulated."""
+    vertices = [(0.0, 0.0, radius)]
+    for ring in range(1, rings):
+        theta = math.pi * ring / rings
+        for segment in range(segments):
+            phi = 2 * math.pi * segment / segments
+            vertices.append((radius * math.sin(theta) * math.cos(phi), radius * math.sin(theta) * math.sin(phi), radius * math.cos(theta)))
+    vertices.append((0.0, 0.0, -radius))
+    last = len(vertices) - 1
+
+    def at(ring, segment):
+        return 1 + (ring - 1) * segments + segment % segments
+
+    faces = [(0, at(1, s), at(1, s + 1)) for s in range(segments)]
+    faces += [(at(r, s), at(r + 1, s), at(r + 1, s + 1), at(r, s + 1)) for r in range(1, rings - 1) for s in range(segments)]
+    faces += [(last, at(rings - 1, s + 1), at(rings - 1, s)) for s in range(segments)]
+    return mesh(name, vertices, faces, [material], smooth=True)
