@@ -59,7 +59,8 @@ def permute(index, length, key):
         result = _permutations(length).take(place)
     else:
         result = _walk(index, length, key)
-    result += key
+    # Without the highest bits the sum cannot wrap around 2^32, where two places would meet.
+    result += key & _ROTATION
     # Modulo length; NumPy divides by vectors, but takes remainders one by one.
     result -= result // _U(length) * _U(length)
     return result
@@ -67,6 +68,7 @@ def permute(index, length, key):
 
 _ROW_BITS = 8
 _ROWS = 1 << _ROW_BITS
+_ROTATION = _U(0xFFFFFFFF >> _ROW_BITS)
 _LONGEST_ROW = 1024
 
 

@@ -65,7 +65,7 @@ def square_to_cosine_power(u2, exponent):
 
 def square_to_cosine_power_pdf(w, exponent):
     """(n + 1) / (2 pi) cos^n [sr^-1] above the horizon, else 0."""
-    return (exponent + 1) * (0.5 * INV_PI) * np.where(w[2] > 0, w[2], 0) ** exponent
+    return (exponent + 1) * (0.5 * INV_PI) * np.maximum(w[2], 0) ** exponent * (w[2] > 0)
 
 
 def square_to_triangle(u2):
