@@ -57,6 +57,12 @@ class Light(Protocol):
     def check(self):
         """Raises SceneError, naming the light, for parameters out of range."""
 
+    def peak(self):
+        """Radiant intensity [W sr^-1], (r, g, b), into the brightest direction; for a sun, irradiance [W m^-2]."""
+
+    def reach(self):
+        """How far the light extends from its `position` [m]; both are asked of lights at a place only."""
+
     def has_extent(self):
         """Whether rays can meet the light at all."""
 

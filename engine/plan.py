@@ -7,7 +7,7 @@ from .arrays import Columns, columns
 from .integrators.path import one_of_the_lobes, only_lobe
 from .registry import FILTERS, INTEGRATORS, PASSES, SAMPLERS
 from .scene.settings import Settings
-from .wavefront.direct import MOST_STRETCHED, add_direct_light, one_of_few_lights, one_of_many_lights, only_light
+from .wavefront.direct import add_direct_light
 from .wavefront.emission import add_emission
 from .wavefront.escape import add_background, add_light_hits
 from .wavefront.numbers import Numbers
@@ -38,7 +38,6 @@ class Plan:
     passes: tuple
     scatter: object
     shading_normals: object
-    choose_light: object
     choose_lobe: object
     last_depth: int
 
@@ -47,7 +46,7 @@ class Plan:
         """Compile `scene` and keep what `requirements` ask for."""
         bsdfs = requirements.plugins("bsdf")
         smooth = needs.SMOOTH_NORMALS in requirements
-        world = compile_world(scene, bsdfs, smooth)
+        world = compile_world(scene, bsdfs, smooth, needs.LIGHT_CHOICE in requirements)
         can_reflect = bool(world.materials.lobes)
         on_rays = (
             *((add_background,) if needs.BACKGROUND in requirements else ()),
@@ -69,14 +68,7 @@ class Plan:
             passes=chosen,
             scatter=INTEGRATORS[settings.integrator].scatter,
             shading_normals=smooth_normals if smooth else flat_normals,
-            choose_light=_light_choice(world.lights, needs.LIGHT_CHOICE in requirements),
             choose_lobe=one_of_the_lobes if len(world.materials.lobes) > 1 else only_lobe,
             # Scattered rays that could find no light need not be traced after the last bounce.
             last_depth=settings.max_depth + bool(on_rays) if can_reflect else 0,
         )
-
-
-def _light_choice(lights, is_needed):
-    if not is_needed:
-        return only_light
-    return one_of_few_lights if lights.cdf.size <= MOST_STRETCHED else one_of_many_lights

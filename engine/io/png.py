@@ -17,7 +17,8 @@ def write_png(path, image):
     try:
         from PIL import Image as Picture
     except ImportError as error:
-        raise FileError(f"PNG files need the module Pillow, which cannot be loaded ({error}); cure: pip install Pillow, or write .exr") from error
+        cure = "pip install Pillow, or write .exr"
+        raise FileError(f"PNG files need the module Pillow, which cannot be loaded ({error}); cure: {cure}") from error
     if "Combined" not in image.passes:
         raise FileError(f"cannot write '{path}': the picture has no pass Combined")
     pixels = to_bytes(image.passes["Combined"])

@@ -22,8 +22,8 @@ VERSION = 1
 DOCUMENT = "scene.json"
 FIXED_DATE = (1980, 1, 1, 0, 0, 0)
 """Equal scenes give equal files."""
-DAMAGED = (zipfile.BadZipFile, zlib.error, struct.error, ValueError, KeyError, EOFError, NotImplementedError, RuntimeError, MemoryError, OverflowError)
-"""What Python's zip and JSON readers raise for bytes that are no zip or no JSON (RecursionError is a RuntimeError)."""
+DAMAGED = (zipfile.BadZipFile, zlib.error, struct.error, ValueError, KeyError, EOFError, RuntimeError, MemoryError, OverflowError)
+"""What Python's zip and JSON readers raise for bytes that are no zip or no JSON (RuntimeError includes RecursionError)."""
 
 
 def write_scene(path, scene, settings):

@@ -77,6 +77,18 @@ class AreaLight:
                 f"light '{self.name}': size {self.size_x} x {self.size_y} m, spread {self.spread} rad; allowed: from 0 on, above 0 to pi"
             )
 
+    @property
+    def position(self):
+        """The middle, world space [m]."""
+        return tuple(np.asarray(self.world_from_light, np.float64)[:3, 3])
+
+    def peak(self):
+        return tuple(self.area() * c for c in self.radiance)
+
+    def reach(self):
+        x, y = self._axes()
+        return 0.5 * math.hypot(np.linalg.norm(x), np.linalg.norm(y))
+
     def has_extent(self):
         return self.area() > 0
 

@@ -38,6 +38,12 @@ class PointLight:
     def check(self):
         bulbs.check(self)
 
+    def peak(self):
+        return self.intensity
+
+    def reach(self):
+        return self.radius
+
     def has_extent(self):
         return self.radius > 0
 

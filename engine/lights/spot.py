@@ -68,6 +68,12 @@ class SpotLight:
         if not (0 < self.angle <= math.pi and 0 <= self.blend <= 1):
             raise SceneError(f"light '{self.name}': angle {self.angle} rad, blend {self.blend}; allowed: 0 to pi, 0 to 1")
 
+    def peak(self):
+        return self.intensity
+
+    def reach(self):
+        return self.radius
+
     def has_extent(self):
         return self.radius > 0
 

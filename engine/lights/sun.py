@@ -54,6 +54,9 @@ class SunLight:
         if not 0 <= self.angle <= math.pi:
             raise SceneError(f"light '{self.name}': angle is {self.angle} rad, allowed: 0 to pi")
 
+    def peak(self):
+        return self.irradiance
+
     def has_extent(self):
         return self.angle > 0
 

@@ -7,8 +7,6 @@ from ..maths.vectors import dot
 from .mis import power_heuristic
 from .numbers import Dimension
 
-MOST_STRETCHED = 256
-"""Up to so many lights leave 16 bits of a number for the point on the light."""
 _MOST_SHARE = 4
 _SHORTENED = np.float32(1 - 4 * EPS32)
 
@@ -16,8 +14,8 @@ _SHORTENED = np.float32(1 - 4 * EPS32)
 def add_direct_light(plan, rays, surface, reflection, film):
     """Light that reaches the surface straight from one light, chosen and sampled; blocked by anything between."""
     world = plan.world
-    index, probability, u2 = plan.choose_light(plan, rays, plan.numbers.two(rays, Dimension.LIGHT_POINT))
     # Seen from where the shadow ray starts, so that it ends where it should.
+    index, probability, u2 = world.lights.choice.choose(surface.o, plan.numbers.two(rays, Dimension.LIGHT))
     wi, distance, E, pdf = world.lights.sample(index, surface.o, u2)
     cos = dot(surface.ns, wi)
     f, scattered_pdf = reflection.eval(surface.ns, surface.wo, wi)
@@ -41,22 +39,3 @@ def _blocked(accel, o, d, limit, candidate):
     blocked = np.zeros(candidate.size, bool)
     blocked[lanes] = accel.occluded(o.take(lanes, axis=1), d.take(lanes, axis=1), limit.take(lanes))
     return blocked
-
-
-def only_light(plan, rays, u2):
-    """There is one light: no choice, and no random number."""
-    return None, 1.0, u2
-
-
-def one_of_few_lights(plan, rays, u2):
-    """A light for each ray in proportion to its power: indices and probabilities (N,), and what is left of u2.
-
-    The first number chooses, and its place within the interval of the chosen light goes on as a number of its own
-    (Shirley 1990): strata hold across the light's parts, and no further number is spent.
-    """
-    return plan.world.lights.choose_and_stretch(u2)
-
-
-def one_of_many_lights(plan, rays, u2):
-    """As `one_of_few_lights`, with a number of its own for the choice: one has not enough digits for both."""
-    return *plan.world.lights.choose(plan.numbers.one(rays, Dimension.LIGHT_CHOICE)), u2

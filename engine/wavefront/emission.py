@@ -18,7 +18,8 @@ def add_emission(plan, rays, hits, film):
     if rays.depth:
         cos = np.abs(dot(world.emitters.normal.take(emitter, axis=1), rays.d.take(lanes, axis=1)))
         t = hits.t.take(lanes)
-        first = world.lights.probability.size - world.emitters.area.size
-        pdf = triangle_pdf(world.emitters.area.take(emitter) * cos / (t * t)) * world.lights.probability.take(first + emitter)
+        index = world.lights.groups[-1].first + emitter
+        pdf = triangle_pdf(world.emitters.area.take(emitter) * cos / (t * t))
+        pdf *= world.lights.choice.probability(index, rays.o.take(lanes, axis=1))
         L *= power_heuristic(rays.pdf.take(lanes), pdf)
     film.add(rays.slot.take(lanes), L)

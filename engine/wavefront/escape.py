@@ -20,6 +20,7 @@ def add_light_hits(plan, rays, hits, film):
             continue
         L = np.broadcast_to(L, rays.d.shape).take(lanes, axis=1) * rays.beta.take(lanes, axis=1)
         if rays.depth:
-            light_pdf = np.broadcast_to(pdf, t.shape).take(lanes) * np.float32(lamp.probability)
+            chosen = plan.world.lights.choice.probability(np.full(lanes.size, lamp.index), rays.o.take(lanes, axis=1))
+            light_pdf = np.broadcast_to(pdf, t.shape).take(lanes) * chosen
             L *= power_heuristic(rays.pdf.take(lanes), light_pdf)
         film.add(rays.slot.take(lanes), L)

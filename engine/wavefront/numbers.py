@@ -7,16 +7,15 @@ from ..samplers.random import Random
 
 
 class Dimension(IntEnum):
-    """Numbers for one path, and for each of its bounces (from LIGHT_CHOICE on)."""
+    """Numbers for one path, and for each of its bounces (from LIGHT on)."""
 
     FILTER = 0
     LENS = 1
     TIME = 2
-    LIGHT_CHOICE = 8
-    LIGHT_POINT = 9
-    LOBE = 10
-    DIRECTION = 11
-    ROULETTE = 12
+    LIGHT = 8
+    LOBE = 9
+    DIRECTION = 10
+    ROULETTE = 11
 
 
 _PER_BOUNCE = 8

@@ -12,7 +12,7 @@ from ..maths.vectors import cross, dot, length
 from ..scene.values import Material
 from .accel import Accel
 from .frame import Frame
-from .lights import Lights
+from .lights import Emitters, Lights
 from .materials import Materials
 
 FARTHEST = 1e12
@@ -58,11 +58,11 @@ class CompiledWorld:
     warnings: tuple
 
 
-def compile_world(scene, bsdfs, smooth):
+def compile_world(scene, bsdfs, smooth, has_choice):
     """`scene` (validated) as a `CompiledWorld`.
 
-    `bsdfs` are the lobes to make room for; `smooth` says whether shading normals are wanted. Raises SceneError
-    where the geometry does not fit into memory.
+    `bsdfs` are the lobes to make room for, `smooth` says that shading normals are wanted, `has_choice` that there may
+    be more than one light. Raises SceneError where the geometry does not fit into memory.
     """
     materials, row = _number_materials(scene)
     table = Materials.of(materials, bsdfs)
@@ -70,6 +70,7 @@ def compile_world(scene, bsdfs, smooth):
     frame, vertices, indices = _merge(parts, scene.camera.position)
     material = _concatenate([part["material"] for part in parts], (0,)).astype(np.intp)
 
+    owner = np.repeat(np.arange(len(parts)), [part["triangles"].shape[1] for part in parts])
     corners, double_area, normal, usable = _measure(vertices, indices)
     warnings = _report_unusable(usable)
     # A triangle without an area is never hit: leaving it out changes no picture. Emitters come last.
@@ -90,14 +91,14 @@ def compile_world(scene, bsdfs, smooth):
     except AccelError as error:
         raise SceneError(f"scene '{scene.name}': {error}") from error
     radius = float(np.abs(corners).max(initial=0)) / frame.scale or 1.0
-    emitters = _emitters(triangles, double_area, table)
+    emitters = Emitters(_emitter_columns(triangles, double_area, table), owner[keep][triangles.first_emitter :])
     return CompiledWorld(
         frame=frame,
         accel=accel,
         triangles=triangles,
         materials=table,
-        lights=Lights.of(scene.lights, emitters, frame, radius),
-        emitters=emitters,
+        lights=Lights.of(scene.lights, emitters, frame, radius, has_choice),
+        emitters=emitters.k,
         background=np.array(scene.world.radiance, np.float32)[:, None],
         warnings=warnings,
     )
@@ -138,7 +139,7 @@ def _report_unusable(usable):
     return (f"{lost} triangles are left out: a corner is not finite or too far away",) if lost else ()
 
 
-def _emitters(triangles, double_area, table):
+def _emitter_columns(triangles, double_area, table):
     """The columns of `lights.triangle.TriangleLight`."""
     last = slice(triangles.first_emitter, None)
     v0, e1, e2, normal = triangles.shape[:, last].reshape(4, 3, -1)

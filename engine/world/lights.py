@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import Columns, columns
-from ..constants import LUMINANCE, ONE_MINUS_EPS32, PI
+from ..constants import LUMINANCE, PI
 from ..lights.triangle import TriangleLight
-from ..maths import discrete
+from .light_choice import MOST_CLUSTERS, ByPlace, ByPower, OnlyLight
 
 MAX_HITTABLE = 16
 """With more light objects than this, scattered rays do not look for them: each would be tested one by one."""
@@ -25,56 +25,50 @@ class Group:
 
 @dataclass(frozen=True, slots=True)
 class Hittable:
-    """A light object with a size: its kind, its row, the probability of choosing it, and whether the camera sees it."""
+    """A light object with a size: its kind, its row, its index among all lights, and whether the camera sees it."""
 
     light: type
     k: Columns
-    probability: float
+    index: int
     is_visible: bool
 
 
 @dataclass(frozen=True, slots=True)
 class Lights:
-    """Every light of a world, chosen in proportion to its power.
+    """Every light of a world.
 
-    groups         one `Group` per kind
-    cdf            (M,) float64 over all lights
-    probability    (M,) float32 of choosing each
-    visible        the `Hittable` lights that camera rays see
-    hittable       the `Hittable` lights that scattered rays meet: all, or none beyond MAX_HITTABLE
+    groups    one `Group` per kind, emissive triangles last
+    choice    how one of them is chosen, see `light_choice`
+    visible   the `Hittable` lights that camera rays see
+    hittable  the `Hittable` lights that scattered rays meet: all, or none beyond MAX_HITTABLE
     """
 
     groups: tuple
-    cdf: np.ndarray
-    probability: np.ndarray
+    choice: object
     visible: tuple
     hittable: tuple
 
     @classmethod
-    def of(cls, lamps, triangles, frame, radius):
-        """From light values `lamps` and the columns of emissive `triangles`; `radius` [m] is the scene's, for suns."""
-        groups, powers = [], []
+    def of(cls, lamps, emitters, frame, radius, has_choice=True):
+        """From light values `lamps` and an `Emitters`; `radius` [m] is the scene's, for suns.
+
+        `has_choice` says that there may be more than one light.
+        """
         lamps = [lamp for lamp in lamps if any(lamp.power())]
-        for kind in dict.fromkeys(type(lamp) for lamp in lamps):
-            same = [lamp for lamp in lamps if type(lamp) is kind]
-            groups.append(Group(kind, columns([lamp.row(frame) for lamp in same]), len(powers), len(same)))
-            powers += [_lamp_power(lamp, radius) for lamp in same]
-        # In units of the largest, or lights of 1e30 and 1e-30 W would not fit into one sum.
-        powers = np.array(powers, np.float64)
-        count = triangles.area.size
-        if count:
-            groups.append(Group(TriangleLight, triangles, powers.size, count))
-            area = triangles.area.astype(np.float64) / frame.scale**2
-            powers = np.concatenate((powers, 2 * PI * area * (np.array(LUMINANCE) @ triangles.radiance.astype(np.float64))))
-        if not powers.any():
-            return cls((), np.zeros(0), np.zeros(0, np.float32), (), ())
-        cdf = discrete.cumulative(powers)
-        probability = discrete.probabilities(cdf).astype(np.float32)
-        hittable = _hittable(lamps, groups, probability)
+        kinds = dict.fromkeys(type(lamp) for lamp in lamps)
+        lamps = [lamp for kind in kinds for lamp in lamps if type(lamp) is kind]
+        groups = []
+        for kind in kinds:
+            rows = [lamp.row(frame) for lamp in lamps if type(lamp) is kind]
+            groups.append(Group(kind, columns(rows), sum(g.count for g in groups), len(rows)))
+        if emitters.count:
+            groups.append(Group(TriangleLight, emitters.k, len(lamps), emitters.count))
+        if not groups:
+            return cls((), OnlyLight(), (), ())
+        hittable = tuple(_hittable(lamps, groups))
         return cls(
             tuple(groups),
-            cdf,
-            probability,
+            _choice(lamps, emitters, frame, radius) if has_choice else OnlyLight(),
             tuple(lamp for lamp in hittable if lamp.is_visible),
             hittable if len(hittable) <= MAX_HITTABLE else (),
         )
@@ -83,19 +77,6 @@ class Lights:
     def is_empty(self):
         """Whether there is nothing to sample."""
         return not self.groups
-
-    def choose(self, u1):
-        """Light indices (N,) and their probability (N,)."""
-        index = discrete.choose(self.cdf, u1)
-        return index, self.probability.take(index)
-
-    def choose_and_stretch(self, u2):
-        """As `choose` with u2[0] (N,), which is then stretched from the light's interval to [0, 1): adds u2 (2, N)."""
-        index, probability = self.choose(u2[0])
-        u2[0] -= np.concatenate(([0], self.cdf[:-1])).astype(np.float32).take(index)
-        u2[0] /= probability
-        np.clip(u2[0], 0, np.float32(ONE_MINUS_EPS32), out=u2[0])
-        return index, probability, u2
 
     def sample(self, index, p, u2):
         """A point on light `index` (N,), or on the only light (None): see `interfaces.Light.sample`."""
@@ -106,10 +87,60 @@ class Lights:
         distance, pdf = np.empty_like(p[0]), np.empty_like(p[0])
         for group in self.groups:
             lanes = np.nonzero((index >= group.first) & (index < group.first + group.count))[0]
-            k = group.k.take(index[lanes] - group.first)
+            if not lanes.size:
+                continue
+            k = group.k.take(index.take(lanes) - group.first)
             sampled = group.light.sample(k, p.take(lanes, axis=1), u2.take(lanes, axis=1))
             wi[:, lanes], distance[lanes], E[:, lanes], pdf[lanes] = sampled
         return wi, distance, E, pdf
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Emitters:
+    """The emissive triangles of a world, object by object.
+
+    k        columns of `lights.triangle.TriangleLight`
+    objects  (M,) ascending: which object each belongs to
+    """
+
+    k: Columns
+    objects: np.ndarray
+
+    @property
+    def count(self):
+        """How many there are."""
+        return self.objects.size
+
+    def power(self):
+        """Radiant flux of both sides, luminance, in units of render space squared, (M,) float64."""
+        return 2 * PI * self.k.area.astype(np.float64) * (np.array(LUMINANCE) @ self.k.radiance.astype(np.float64))
+
+    def clusters(self, power):
+        """One cluster for each object, see `ByPlace.of`."""
+        k = self.k
+        corners = np.stack((k.v0, k.v0 + k.e1, k.v0 + k.e2)).astype(np.float64)
+        edges = np.nonzero(np.diff(self.objects, prepend=-1))[0]
+        for start, end in zip(edges, [*edges[1:], self.count]):
+            low, high = corners[:, :, start:end].min(axis=(0, 2)), corners[:, :, start:end].max(axis=(0, 2))
+            radius2 = 0.25 * float(((high - low) ** 2).sum())
+            yield {
+                "centre": tuple(0.5 * (low + high)),
+                "power": power[start:end].sum() / (2 * PI),
+                "nearness": 1.0,
+                "radius2": radius2,
+                "count": end - start,
+            }
+
+
+def _choice(lamps, emitters, frame, radius):
+    flux = emitters.power()
+    powers = np.concatenate(([_lamp_power(lamp, radius) * frame.scale**2 for lamp in lamps], flux))
+    if powers.size == 1:
+        return OnlyLight()
+    by_power = ByPower.of(powers)
+    if not 1 < len(lamps) + len(np.unique(emitters.objects)) <= MOST_CLUSTERS:
+        return by_power
+    return ByPlace.of(by_power, [*(_lamp_cluster(lamp, frame) for lamp in lamps), *emitters.clusters(flux)])
 
 
 def _lamp_power(lamp, radius):
@@ -118,13 +149,24 @@ def _lamp_power(lamp, radius):
     return power * radius**2 if lamp.key == "sun" else power
 
 
-def _hittable(lamps, groups, probability):
-    """`Hittable` for each lamp with a size, in the order of the groups."""
-    ordered = [lamp for group in groups for lamp in lamps if type(lamp) is group.light]
-    return tuple(
-        Hittable(group.light, group.k.take([i]), float(probability[group.first + i]), ordered[group.first + i].is_visible)
-        for group in groups
-        if group.light is not TriangleLight
-        for i in range(group.count)
-        if ordered[group.first + i].has_extent()
-    )
+def _lamp_cluster(lamp, frame):
+    peak = float(np.dot(LUMINANCE, lamp.peak()))
+    if lamp.key == "sun":
+        return {"centre": (0.0, 0.0, 0.0), "power": peak, "nearness": 0.0, "radius2": 1.0, "count": 1}
+    centre = frame.points(np.asarray(lamp.position, np.float64)[:, None])[:, 0]
+    return {
+        "centre": tuple(centre),
+        "power": peak * frame.scale**2,
+        "nearness": 1.0,
+        "radius2": (lamp.reach() * frame.scale) ** 2,
+        "count": 1,
+    }
+
+
+def _hittable(lamps, groups):
+    """`Hittable` for each lamp with a size; `lamps` are in the order of `groups`."""
+    for group in groups:
+        for i in range(group.count) if group.light is not TriangleLight else ():
+            lamp = lamps[group.first + i]
+            if lamp.has_extent():
+                yield Hittable(group.light, group.k.take([i]), group.first + i, lamp.is_visible)
