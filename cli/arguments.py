@@ -49,14 +49,17 @@ def _add_render(commands):
         command.add_argument(f"--{name}", type=kind, metavar=name[0].upper() if kind is str else "N", help=text)
     command.add_argument("--resolution", type=resolution, metavar="WxH", help="size of the full frame in pixels")
     command.add_argument(
-        "--border", type=border, metavar="X0,Y0,X1,Y1", help="render this part only: fractions of the frame from the bottom left, as in Blender"
+        "--border", type=border, metavar="X0,Y0,X1,Y1", help="render this part only: fractions of the frame from the bottom left"
     )
     command.add_argument("--quiet", action="store_true", help="print warnings and errors only")
 
 
 def _add_info(commands):
     command = commands.add_parser(
-        "info", allow_abbrev=False, help="what a scene requires, and what is approximated or ignored", description="Look at FILE, render nothing."
+        "info",
+        allow_abbrev=False,
+        help="what a scene requires, and what is approximated or ignored",
+        description="Look at FILE, render nothing.",
     )
     _add_file(command)
     _add_scene(command)

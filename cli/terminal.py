@@ -70,8 +70,8 @@ def _rich_bar():
     except ImportError:
         return None
     # Markup is off: names of scenes may hold brackets.
-    columns = (TextColumn("{task.description}", markup=False), BarColumn(), TaskProgressColumn(), TimeElapsedColumn(), TimeRemainingColumn())
-    return Progress(*columns, console=Console(stderr=True))
+    title = TextColumn("{task.description}", markup=False)
+    return Progress(title, BarColumn(), TaskProgressColumn(), TimeElapsedColumn(), TimeRemainingColumn(), console=Console(stderr=True))
 
 
 class _Lines:

@@ -83,9 +83,10 @@ def build(staging, output):
 def find_builder():
     """The path of `blender_ext.py` in the installed `bpy`, found without loading Blender."""
     spec = importlib.util.find_spec("bpy")
-    found = [path for place in (spec.submodule_search_locations if spec else ()) for path in Path(place).glob("*/scripts/addons_core/bl_pkg/cli/blender_ext.py")]
+    folders = spec.submodule_search_locations if spec else ()
+    found = [path for folder in folders for path in Path(folder).glob("*/scripts/addons_core/bl_pkg/cli/blender_ext.py")]
     if not found:
-        sys.exit("Blender's extension builder comes with the Python package bpy, which is not installed (Python 3.11 or 3.13 has it)")
+        sys.exit("Blender's extension builder comes with the Python package bpy, which is not installed (Python 3.11 and 3.13 have it)")
     return found[0]
 
 

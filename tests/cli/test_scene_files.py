@@ -146,17 +146,20 @@ def test_info_says_who_asked_for_what(scene_file, capsys):
     assert content["warnings"] == []
 
 
-def test_nothing_of_blender_is_loaded_for_a_scene_file(scene_file):
+def without_bpy(*words):
     program = "import sys; sys.modules['bpy'] = None; from glanz.cli import main; sys.exit(main(sys.argv[1:]))"
-    result = subprocess.run([sys.executable, "-c", program, "render", scene_file, "-o", "a.exr"], capture_output=True, text=True, check=False)
+    return subprocess.run([sys.executable, "-c", program, *words], capture_output=True, text=True, check=False)
+
+
+def test_nothing_of_blender_is_loaded_for_a_scene_file(scene_file):
+    result = without_bpy("render", scene_file, "-o", "a.exr")
     assert result.returncode == 0, result.stderr
     assert helpers.same_bits(combined("a.exr"), expected(SETTINGS))
 
 
 def test_a_blend_file_without_bpy_is_an_error_with_the_cure(scene_file, tmp_path):
     (tmp_path / "a.blend").write_bytes(b"BLENDER")
-    program = "import sys; sys.modules['bpy'] = None; from glanz.cli import main; sys.exit(main(sys.argv[1:]))"
-    result = subprocess.run([sys.executable, "-c", program, "render", "a.blend"], capture_output=True, text=True, check=False)
+    result = without_bpy("render", "a.blend")
     assert result.returncode == 1
     assert "pip install" in result.stderr
 

@@ -60,7 +60,7 @@ def test_a_full_disk_leaves_the_old_file_and_no_other(tmp_path, image, limit):
     soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (limit, hard))
     try:
-        with pytest.raises(FileError, match="a.exr"):
+        with pytest.raises(FileError, match=r"a\.exr"):
             write_exr(target, image)
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
