@@ -32,6 +32,7 @@ _OF_EEVEE = (
     "EEVEE_MATERIAL_PT_surface",
     "EEVEE_WORLD_PT_surface",
 )
+_joined = []
 
 
 def shared_panels():
@@ -54,8 +55,9 @@ def _is_shared(name, engines):
 def register():
     for panel in shared_panels():
         panel.COMPAT_ENGINES.add(ENGINE)
+        _joined.append(panel)
 
 
 def unregister():
-    for panel in _subclasses(bpy.types.Panel):
-        getattr(panel, "COMPAT_ENGINES", set()).discard(ENGINE)
+    while _joined:
+        _joined.pop().COMPAT_ENGINES.discard(ENGINE)

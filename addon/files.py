@@ -42,6 +42,8 @@ def save_png(image, path, scene_name=None):
     scene = bpy.context.scene if scene_name is None else bpy.data.scenes.get(scene_name)
     if scene is None:
         raise SceneError(f"unknown scene '{scene_name}'")
+    if not path.parent.is_dir():  # Blender would make one
+        raise FileError(f"cannot write {path}: there is no folder {path.parent}")
     temporary = path.with_name(f".{path.stem}.{os.getpid()}.png")
     try:
         with _datablock(image) as datablock, _png_settings(scene.render.image_settings):

@@ -24,6 +24,9 @@ def settings_of(scene, view_layer, **overrides):
     width, height = resolution(render.resolution_x, render.resolution_y, render.resolution_percentage)
     values = {"width": width, "height": height, "threads": render.threads if render.threads_mode == "FIXED" else 0}
     values |= {name: getattr(scene.glanz, name) for name in _OWN}
+    lost = [name for name in ("integrator", "sampler", "pixel_filter") if not values[name]]
+    if lost and not set(lost) <= set(overrides):
+        raise SceneError(f"scene '{scene.name}': this version of Glanz does not know its {', '.join(lost)}: choose anew")
     # A view layer may have samples of its own; 0 means the scene's.
     values["samples"] = view_layer.samples or values["samples"]
     values["passes"] = passes.chosen(view_layer)

@@ -3,8 +3,6 @@
 Nodes and sockets are found by type and identifier, never by name: names are translated and renamed.
 """
 
-from ...engine import SceneError
-
 _RGB_WEIGHTS = (0.2126, 0.7152, 0.0722)
 
 
@@ -29,13 +27,23 @@ def input_by_identifier(node, identifier):
 class Reader:
     """Reads the sockets of one node tree and of the groups in it, and notes what it cannot read.
 
-    `owner` is who is named in notes, such as "material 'Wood'"; `groups` are the group nodes entered, outermost first.
+    owner   who is named in notes, such as "material 'Wood'"
+    groups  the group nodes entered, outermost first
+    trail   the nodes passed on the way from the output, each with the groups it is in
     """
 
-    def __init__(self, owner, findings, groups=()):
+    def __init__(self, owner, findings, groups=(), trail=()):
         self.owner = owner
         self.findings = findings
         self.groups = groups
+        self.trail = trail
+
+    def beyond(self, node):
+        """A reader for what feeds `node`, or None, with a note, where that leads back to `node` itself."""
+        if (node, self.groups) in self.trail:
+            self.note("its nodes form a circle, which is cut off")
+            return None
+        return Reader(self.owner, self.findings, self.groups, (*self.trail, (node, self.groups)))
 
     def note(self, what):
         self.findings.note(what, self.owner)
@@ -44,15 +52,14 @@ class Reader:
         """(reader, socket, output): the output that feeds an input `socket`, None if nothing does.
 
         Goes through reroutes, muted nodes and groups; `reader` reads in the tree where the search ended, and `socket`
-        is the last input on the way, whose own value counts where nothing feeds it. Raises SceneError for a loop.
+        is the last input on the way, whose own value counts where nothing feeds it.
         """
-        reader, seen = self, set()
+        reader = self
         while link := next((link for link in socket.links if not link.is_muted), None):
-            place = (link.from_node.as_pointer(), socket.as_pointer(), len(reader.groups))
-            if place in seen:
-                raise SceneError(f"{self.owner}: its nodes form a loop at '{link.from_node.name}'")
-            seen.add(place)
-            onwards = reader._passed_on(link.from_node, link.from_socket)
+            beyond = reader.beyond(link.from_node)
+            if beyond is None:
+                return reader, socket, None
+            onwards = beyond._passed_on(link.from_node, link.from_socket)
             if onwards is None:
                 return reader, socket, link.from_socket
             reader, next_socket = onwards
@@ -72,10 +79,11 @@ class Reader:
                 self.note(f"the node group of '{node.name}' is missing")
                 return self, None
             inside = next((n for n in node.node_tree.nodes if n.type == "GROUP_OUTPUT" and n.is_active_output), None)
-            reader = Reader(self.owner, self.findings, (*self.groups, node))
+            reader = Reader(self.owner, self.findings, (*self.groups, node), self.trail)
             return reader, inside and input_by_identifier(inside, output.identifier)
         if node.type == "GROUP_INPUT" and self.groups:
-            return Reader(self.owner, self.findings, self.groups[:-1]), input_by_identifier(self.groups[-1], output.identifier)
+            reader = Reader(self.owner, self.findings, self.groups[:-1], self.trail)
+            return reader, input_by_identifier(self.groups[-1], output.identifier)
         return None
 
     def is_linked(self, node, identifier):

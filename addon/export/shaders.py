@@ -21,9 +21,8 @@ def _behind(reader, socket):
     if output is None:
         return Closure()
     node = output.node
-    if node.type in _TABLE:
-        return _TABLE[node.type](reader, node)
-    return _approximated(reader, node)
+    read = _TABLE.get(node.type, _approximated)
+    return read(reader.beyond(node), node)
 
 
 def _approximated(reader, node):

@@ -3,6 +3,7 @@
 import bpy
 import numpy as np
 import OpenEXR
+
 from glanz.addon.export import export_scene
 from glanz.addon.settings import settings_of
 

@@ -24,6 +24,7 @@ def pytest_pycollect_makemodule(module_path, parent):
 def empty_file():
     """A new file: one scene, nothing in it, Glanz as its engine."""
     import bpy
+
     import glanz
 
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)

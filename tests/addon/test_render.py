@@ -5,6 +5,7 @@ import threading
 import bpy
 import numpy as np
 import pytest
+
 from glanz import engine
 from glanz.addon import render_engine, results
 from glanz.engine import rendering

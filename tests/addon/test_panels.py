@@ -1,0 +1,122 @@
+"""Everything that Glanz renders can be edited while Glanz is the engine."""
+
+from types import SimpleNamespace
+
+import bpy
+import pytest
+
+from glanz.addon import builtin_panels, panels
+from glanz.tests.addon import blender
+
+OWN = {panel.__name__: panel for panel in panels._CLASSES}
+
+
+class Layout:
+    """Stands for a layout: remembers what was drawn, refuses properties that do not exist."""
+
+    def __init__(self):
+        self.drawn = []
+
+    def prop(self, owner, name, **options):
+        assert name in owner.bl_rna.properties, f"{owner} has no property {name}"
+        self.drawn.append(name)
+
+    def label(self, **options):
+        self.drawn.append(options["text"])
+
+    def separator(self):
+        pass
+
+    def column(self, **options):
+        return self
+
+    row = column
+
+
+def _context(ob=None):
+    scene = bpy.context.scene
+    light = ob.data if ob and ob.type == "LIGHT" else None
+    return SimpleNamespace(engine=scene.render.engine, scene=scene, view_layer=bpy.context.view_layer, object=ob, light=light)
+
+
+def _drawn(name, ob=None):
+    """What the panel draws; it is polled first."""
+    context = _context(ob)
+    assert OWN[name].poll(context)
+    panel = SimpleNamespace(layout=Layout())
+    panel.column = lambda: panels.GlanzPanel.column(panel)
+    OWN[name].draw(panel, context)
+    return panel.layout.drawn
+
+
+def test_settings_are_drawn():
+    names = [
+        *_drawn("GLANZ_RENDER_PT_sampling"),
+        *_drawn("GLANZ_RENDER_PT_light_paths"),
+        *_drawn("GLANZ_RENDER_PT_film"),
+        *_drawn("GLANZ_RENDER_PT_performance"),
+    ]
+    own = {name for name in bpy.context.scene.glanz.bl_rna.properties.keys() if name not in ("rna_type", "name")}  # noqa: SIM118
+    assert own <= set(names)
+    assert {"threads", "threads_mode"} <= set(names)
+
+
+def test_passes_are_drawn():
+    assert _drawn("GLANZ_VIEWLAYER_PT_passes") == ["use_pass_z", "use_pass_normal"]
+    assert "material_override" in _drawn("GLANZ_VIEWLAYER_PT_override")
+
+
+@pytest.mark.parametrize(
+    ("kind", "names"),
+    [
+        ("POINT", {"shadow_soft_size", "use_soft_falloff"}),
+        ("SPOT", {"shadow_soft_size", "spot_size", "spot_blend"}),
+        ("SUN", {"angle"}),
+        ("AREA", {"shape", "size", "spread"}),
+    ],
+)
+def test_lights_can_be_edited(kind, names):
+    ob = blender.link("Light", bpy.data.lights.new("Light", kind))
+    drawn = _drawn("GLANZ_LIGHT_PT_light", ob)
+    assert names | {"type", "energy", "color", "visible_camera"} <= set(drawn)
+    assert "size_y" not in drawn
+    if kind == "AREA":
+        ob.data.shape = "ELLIPSE"
+        assert "size_y" in _drawn("GLANZ_LIGHT_PT_light", ob)
+
+
+@pytest.mark.parametrize("name", OWN)
+def test_panels_hide_from_other_engines(name):
+    bpy.context.scene.render.engine = "BLENDER_WORKBENCH"
+    assert not OWN[name].poll(_context(blender.link("Light", bpy.data.lights.new("Light", "POINT"))))
+
+
+def test_a_problem_is_shown_only_where_there_is_one(monkeypatch):
+    assert not OWN["GLANZ_RENDER_PT_problem"].poll(_context())
+    monkeypatch.setattr("glanz.addon.backend._load", lambda: (None, "no Embree"))
+    assert "no Embree" in "".join(_drawn("GLANZ_RENDER_PT_problem"))
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "DATA_PT_camera",
+        "DATA_PT_lens",
+        "EEVEE_MATERIAL_PT_context_material",
+        "EEVEE_MATERIAL_PT_surface",
+        "EEVEE_WORLD_PT_surface",
+        "OBJECT_PT_visibility",
+        "RENDER_PT_color_management",
+        "RENDER_PT_format",
+        "RENDER_PT_output",
+        "WORLD_PT_context_world",
+    ],
+)
+def test_blenders_panels_are_there(name):
+    assert "GLANZ" in getattr(bpy.types, name).COMPAT_ENGINES
+
+
+def test_panels_of_what_is_not_rendered_are_not_there():
+    for panel in builtin_panels.shared_panels():
+        assert "freestyle" not in panel.__name__.lower()
+        assert "lightprobe" not in panel.__name__

@@ -1,0 +1,111 @@
+"""Switching Glanz on and off leaves Blender as it was, also without the engine's libraries."""
+
+import bpy
+import pytest
+
+import glanz
+from glanz.addon import backend, builtin_panels, properties
+from glanz.tests.addon import blender
+
+
+@pytest.fixture(autouse=True)
+def registered_again():
+    yield
+    glanz.register()
+
+
+def _traces():
+    """Everything of Glanz that Blender can see."""
+    panels = {p.__name__ for p in builtin_panels._subclasses(bpy.types.Panel) if "GLANZ" in getattr(p, "COMPAT_ENGINES", ())}
+    own = {name for name in dir(bpy.types) if name.startswith("GLANZ")}
+    return panels, own, hasattr(bpy.types.Scene, "glanz")
+
+
+def _is_engine(identifier):
+    try:
+        bpy.context.scene.render.engine = identifier
+    except TypeError:
+        return False
+    return True
+
+
+def test_unregistering_takes_everything_back_twice_over():
+    glanz.unregister()
+    before = _traces()
+    assert before[1:] == (set(), False)
+    for _ in range(2):
+        glanz.register()
+        panels, own, has_settings = _traces()
+        assert "GLANZ_RENDER_PT_sampling" in own
+        assert _is_engine("GLANZ")
+        assert has_settings
+        assert len(panels) > 50
+        glanz.unregister()
+        assert not _is_engine("GLANZ")
+    assert _traces()[1:] == (set(), False)
+
+
+def test_registering_twice_is_registering_once():
+    glanz.register()
+    glanz.register()
+    glanz.unregister()
+    assert _traces()[1:] == (set(), False)
+    glanz.unregister()
+
+
+def test_half_a_registration_is_taken_back(monkeypatch):
+    glanz.unregister()
+    monkeypatch.setattr("glanz.addon.panels.register", lambda: 1 / 0)
+    with pytest.raises(ZeroDivisionError):
+        glanz.register()
+    assert _traces()[1:] == (set(), False)
+
+
+def test_choices_are_those_of_the_engines_registries():
+    settings = bpy.context.scene.glanz
+    for name, registry in (("integrator", "INTEGRATORS"), ("sampler", "SAMPLERS"), ("pixel_filter", "FILTERS")):
+        plugins = getattr(glanz.engine, registry)
+        for key in plugins:
+            setattr(settings, name, key)
+            assert getattr(settings, name) == key
+        items = properties.enum_items(registry)
+        assert [item[0] for item in items] == list(plugins)
+        assert len({item[4] for item in items}) == len(plugins)
+        with pytest.raises(TypeError):
+            setattr(settings, name, "nonsense")
+
+
+def test_defaults_are_the_engines():
+    settings = bpy.context.scene.glanz
+    engine = glanz.engine.Settings()
+    for name in ("integrator", "samples", "max_depth", "seed", "sampler", "pixel_filter", "filter_width", "tile_size"):
+        assert getattr(settings, name) == getattr(engine, name), name
+
+
+def test_settings_survive_saving_and_loading(tmp_path):
+    settings = bpy.context.scene.glanz
+    settings.sampler, settings.samples, settings.pixel_filter = "random", 7, "box"
+    path = str(tmp_path / "a.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    assert bpy.context.scene.glanz.samples == 64
+    bpy.ops.wm.open_mainfile(filepath=path)
+    settings = bpy.context.scene.glanz
+    assert (settings.sampler, settings.samples, settings.pixel_filter) == ("random", 7, "box")
+
+
+@pytest.fixture
+def without_engine(monkeypatch):
+    glanz.unregister()
+    monkeypatch.setattr(backend, "_load", lambda: (None, "ModuleNotFoundError: No module named 'embreex'"))
+    monkeypatch.setattr(properties, "enum_items", lambda name: [])
+    glanz.register()
+    bpy.context.scene.render.engine = "GLANZ"
+
+
+def test_a_missing_library_is_a_message_not_a_crash(without_engine, tmp_path):
+    assert "embreex" in backend.problem()
+    blender.add_camera()
+    with pytest.raises(RuntimeError, match="embreex"):
+        blender.render(tmp_path / "a.exr")
+    assert not (tmp_path / "a.exr").exists()

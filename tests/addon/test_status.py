@@ -1,0 +1,25 @@
+"""The status line says how far, and how long yet."""
+
+import pytest
+
+from glanz.addon.memory import peak_megabytes
+from glanz.addon.status import minutes, text
+
+
+@pytest.mark.parametrize(("seconds", "expected"), [(0, "0:00"), (5, "0:05"), (65, "1:05"), (3600, "1:00:00"), (59.6, "1:00")])
+def test_minutes(seconds, expected):
+    assert minutes(seconds) == expected
+
+
+def test_remaining_time_is_in_proportion():
+    assert text(0.25, 64, 30) == "25% of 64 samples, 1:30 left"
+    assert text(1, 64, 30) == "100% of 64 samples, 0:00 left"
+
+
+def test_there_is_no_guess_before_anything_is_done():
+    assert text(0, 64, 0) == "0% of 64 samples"
+
+
+def test_memory_is_that_of_a_process_with_blender_in_it():
+    memory = peak_megabytes()
+    assert memory is None or 50 < memory < 100_000
