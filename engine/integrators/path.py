@@ -28,19 +28,9 @@ class Path:
         beta *= cos / pdf
         # Below the geometric surface there is nothing to reflect into; such paths end, and still count.
         alive, q = survive(plan, rays, beta, (cos > 0) & (dot(surface.n, wi) > 0) & (pdf > 0))
-        lanes = np.nonzero(alive)[0]
-        return (
-            Rays(
-                o=surface.o.take(lanes, axis=1),
-                d=wi.take(lanes, axis=1),
-                beta=beta.take(lanes, axis=1) / q.take(lanes),
-                pdf=pdf.take(lanes),
-                slot=rays.slot.take(lanes),
-                key=rays.key.take(lanes),
-                sample=rays.sample.take(lanes),
-                depth=rays.depth + 1,
-            ),
-        )
+        beta /= q
+        scattered = Rays(surface.o, wi, beta, pdf, rays.slot, rays.key, rays.sample, rays.depth + 1)
+        return (scattered if alive.all() else scattered.take(np.nonzero(alive)[0]),)
 
 
 def survive(plan, rays, beta, valid):

@@ -50,11 +50,13 @@ class AreaLight:
     def row(self, frame):
         x, y = self._axes()
         normal = -np.cross(x, y)
+        if normal @ np.asarray(self.world_from_light, np.float64)[:3, 2] > 0:
+            normal = -normal  # a mirrored frame: the light still shines along its -z
         norm = np.linalg.norm(normal)
         half = 0.5 * self.spread
         # The factor (tan a) / (tan a - a) and cot a: finite for a = pi / 2, where the light is Lambertian.
         cot = math.cos(half) / math.sin(half)
-        gain = 1 / (1 - half * cot) if half > 0.05 else 3 / (half * half)
+        gain = 1 / (1 - half * cot) if half > 0.05 else 3 / (half * half) - 0.2
         return {
             "centre": tuple(frame.points(np.asarray(self.world_from_light, np.float64)[:3, 3:4])[:, 0]),
             "axis_x": tuple(x * frame.scale),

@@ -57,4 +57,4 @@ def _only_hits(rays, hits):
         rays.beta[:, missed] = 0
         return rays, hits
     lanes = np.nonzero(hits.prim >= 0)[0]
-    return rays.take(lanes), hits.take(lanes)
+    return rays.landed(lanes), hits.take(lanes)

@@ -27,13 +27,26 @@ class Rays:
     sample: np.ndarray
     depth: int
 
+    def landed(self, lanes):
+        """The rays `lanes` (M,) for what happens where they hit: origins and densities have done their work."""
+        return Rays(
+            self.o[:, :0],
+            self.d.take(lanes, axis=1),
+            self.beta.take(lanes, axis=1),
+            self.pdf[:0],
+            self.slot.take(lanes),
+            self.key.take(lanes),
+            self.sample.take(lanes),
+            self.depth,
+        )
+
     def take(self, lanes):
         """The rays `lanes` (M,)."""
         return Rays(
             self.o.take(lanes, axis=1),
             self.d.take(lanes, axis=1),
             self.beta.take(lanes, axis=1),
-            self.pdf.take(lanes) if self.depth else self.pdf,
+            self.pdf.take(lanes),
             self.slot.take(lanes),
             self.key.take(lanes),
             self.sample.take(lanes),

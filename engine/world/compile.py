@@ -27,14 +27,16 @@ class Triangles:
     shape           (12, F) float32: first corner, the edges to the second and third, and the geometric normal (unit, by
                     winding), three rows each
     extent          (F,) float32: the largest coordinate of the edges by magnitude
-    corner_normals  (9, F) float32: the shading normal of the first corner, and the differences to those of the second
-                    and third; (9, 0): all meshes are flat
+    smooth          (F,) intp: a column of `corner_normals`, -1 for flat triangles; (0,): all are flat
+    corner_normals  (9, S) float32: the shading normal of the first corner, and the differences to those of the second
+                    and third
     material        (F,) intp, a row of `Materials`
     first_emitter   triangles from here on emit
     """
 
     shape: np.ndarray
     extent: np.ndarray
+    smooth: np.ndarray
     corner_normals: np.ndarray
     material: np.ndarray
     first_emitter: int
@@ -79,10 +81,12 @@ def compile_world(scene, bsdfs, smooth, has_choice):
     keep = keep[np.argsort(emits[keep], kind="stable")]
     corners, double_area, normal, material = corners.take(keep, axis=2), double_area[keep], normal.take(keep, axis=1), material[keep]
     e1, e2 = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    column, corner_normals = _smooth(parts, keep, normal) if smooth else (np.zeros(0, np.intp), np.zeros((9, 0), np.float32))
     triangles = Triangles(
         shape=np.concatenate((corners[:, 0], e1, e2, normal)),
         extent=np.maximum(np.abs(e1), np.abs(e2)).max(axis=0, initial=0),
-        corner_normals=_corner_normals(parts, keep, normal) if smooth else np.zeros((9, 0), np.float32),
+        smooth=column,
+        corner_normals=corner_normals,
         material=material,
         first_emitter=keep.size - np.count_nonzero(emits[keep]),
     )
@@ -168,6 +172,7 @@ def _place(o, row, smooth):
         part["material"] = rows[np.clip(mesh.material_indices, 0, len(rows) - 1)]
     else:
         part["material"] = np.full(triangles.shape[1], rows[0], np.int32)
+    part["corner_normals"] = np.zeros((9, 0), np.float32)
     if smooth and mesh.is_smooth:
         normals = cofactors(matrix) @ mesh.normals.astype(np.float64)
         norm = length(normals)
@@ -176,17 +181,14 @@ def _place(o, row, smooth):
     return part
 
 
-def _corner_normals(parts, keep, flat):
-    """See `Triangles.corner_normals`; flat meshes, and normals without a direction, take the geometric normal."""
-    count = sum(part["triangles"].shape[1] for part in parts)
-    given = np.zeros((9, count), np.float32)
-    start = 0
-    for part in parts:
-        end = start + part["triangles"].shape[1]
-        if "corner_normals" in part:
-            given[:, start:end] = part["corner_normals"]
-        start = end
-    given = given.take(keep, axis=1)
+def _smooth(parts, keep, flat):
+    """`Triangles.smooth` and `.corner_normals`; corners whose normal has no direction take the geometric one."""
+    given = _concatenate([part["corner_normals"] for part in parts], (9, 0)).astype(np.float32)
+    is_smooth = np.concatenate([np.full(part["triangles"].shape[1], part["corner_normals"].shape[1] > 0) for part in parts] or [[]])
+    column = np.where(is_smooth, np.cumsum(is_smooth) - 1, -1).astype(np.intp)[keep]
+    kept = np.nonzero(column >= 0)[0]
+    given, flat = given.take(column[kept], axis=1), flat.take(kept, axis=1)
+    column[kept] = np.arange(kept.size)
     for corner in (given[0:3], given[3:6], given[6:9]):
         cos = dot(corner, flat)
         # Not NaN, not zero, and on the side of the geometric normal, whose sign decides for both.
@@ -195,7 +197,7 @@ def _corner_normals(parts, keep, flat):
         corner[:, lacking] = flat[:, lacking]
     given[3:6] -= given[0:3]
     given[6:9] -= given[0:3]
-    return given
+    return column, given
 
 
 def _concatenate(arrays, empty):

@@ -38,14 +38,22 @@ def flat_normals(triangles, prim, u, v, n, sign):
 
 
 def smooth_normals(triangles, prim, u, v, n, sign):
-    """Shading normals (3, M) interpolated between the corners, renormalised, and turned as the geometric ones are."""
-    corner, along_e1, along_e2 = triangles.corner_normals.take(prim, axis=1).reshape(3, 3, -1)
-    along_e1 *= u
-    along_e2 *= v
+    """Shading normals (3, M) interpolated between the corners, renormalised, and turned as the geometric ones are.
+
+    Only for the lanes on smooth triangles; the others keep the geometric normal.
+    """
+    row = triangles.smooth.take(prim)
+    lanes = np.nonzero(row >= 0)[0]
+    corner, along_e1, along_e2 = triangles.corner_normals.take(row.take(lanes), axis=1).reshape(3, 3, -1)
+    along_e1 *= u.take(lanes)
+    along_e2 *= v.take(lanes)
     corner += along_e1
     corner += along_e2
-    corner *= sign / np.maximum(length(corner), np.finfo(np.float32).tiny)
-    return corner
+    corner *= sign.take(lanes) / np.maximum(length(corner), np.finfo(np.float32).tiny)
+    ns = n.copy()
+    for all_lanes, smooth_lanes in zip(ns, corner):
+        all_lanes[lanes] = smooth_lanes
+    return ns
 
 
 def interact(triangles, shading_normals, d, hits):
