@@ -215,14 +215,14 @@ def dots(a, b):
 
 # Statistics
 
-def mean_is(samples, truth, floor=0.0):
-    """Whether independent `samples` (N,) have the mean `truth`, at level ALPHA; `floor` is rounding to forgive.
+def mean_is(samples, truth, floor=0.0, absolute=0.0):
+    """Whether independent `samples` (N,) have the mean `truth`, at level ALPHA; `floor` (relative) is rounding to forgive.
 
     Student's t. Written so that NaN fails.
     """
     samples = np.asarray(samples, np.float64).ravel()
     error = stats.sem(samples) * stats.t.isf(ALPHA / 2, samples.size - 1)
-    return bool(abs(samples.mean() - truth) <= error + floor * abs(truth))
+    return bool(abs(samples.mean() - truth) <= error + floor * abs(truth) + absolute)
 
 
 def means_agree(a, b, floor=0.0):
