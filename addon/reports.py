@@ -9,7 +9,7 @@ from . import backend
 log = logging.getLogger("glanz")
 
 MOST_WARNINGS = 8
-"""Warnings shown in Blender for one render; all are logged."""
+"""Warnings shown in Blender for one render; the others are logged."""
 
 
 def describe(error):
@@ -24,6 +24,12 @@ def describe(error):
     return f"Glanz failed: {type(error).__name__}: {error}"
 
 
+def is_expected(error):
+    """Whether the user can do something about `error`, and a developer needs no traceback."""
+    engine = backend.engine()
+    return bool(engine) and isinstance(error, engine.GlanzError) and error.__cause__ is None
+
+
 @contextmanager
 def errors_shown(engine):
     """Turn whatever is raised inside into an error report of Blender's render `engine`, so that its operator fails.
@@ -36,13 +42,14 @@ def errors_shown(engine):
         yield
     except BaseException as error:
         message = describe(error)
-        traceback.print_exception(error)
+        if not is_expected(error):
+            traceback.print_exception(error)
         engine.error_set(message)
         engine.report({"ERROR"}, message)
 
 
 class Warnings:
-    """Shows each warning once: all in the log, the first few as reports of Blender's render `engine`."""
+    """Shows each warning once: the first few as reports of Blender's render `engine`, the others in the log."""
 
     def __init__(self, engine):
         self._engine = engine
@@ -53,9 +60,10 @@ class Warnings:
             if line in self._seen:
                 continue
             self._seen[line] = True
-            log.warning(line)
             if len(self._seen) <= MOST_WARNINGS:
                 self._engine.report({"WARNING"}, line)
+            else:
+                log.warning(line)
 
     def close(self):
         """Say how many were not shown."""

@@ -1,0 +1,72 @@
+"""Tiles land where they belong, and every result is ended once."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from glanz.addon.results import flat_pixels, make_room, open_result, place_in_result
+from glanz.engine import Settings, Tile
+
+
+class Engine:
+    """Stands for Blender's engine: counts how often results are begun and ended."""
+
+    def __init__(self, granted=None):
+        self.granted, self.ended = granted, []
+
+    def begin_result(self, x, y, width, height, layer, view):
+        if self.granted == "nothing":
+            return None
+        width, height = self.granted or (width, height)
+        return SimpleNamespace(resolution_x=width, resolution_y=height, layers=[])
+
+    def end_result(self, result, cancel):
+        self.ended.append(cancel)
+
+
+def test_rows_are_turned_upside_down():
+    values = np.arange(12, dtype=np.float64).reshape(2, 3, 2)
+    flat = flat_pixels(values)
+    assert flat.dtype == np.float32
+    assert flat.tolist() == [6, 7, 8, 9, 10, 11, 0, 1, 2, 3, 4, 5]
+
+
+def test_places_count_from_the_bottom_left_of_the_border():
+    tile = Tile(x=12, y=20, width=8, height=5, passes={})
+    assert place_in_result(tile, (0, 0, 100, 50)) == (12, 25, 8, 5)
+    assert place_in_result(tile, (10, 15, 60, 40)) == (2, 15, 8, 5)
+
+
+def test_a_good_result_is_ended_once_and_kept():
+    engine = Engine()
+    with open_result(engine, (0, 0, 4, 4), "Layer"):
+        pass
+    assert engine.ended == [False]
+
+
+def test_a_bad_result_is_ended_once_and_dropped():
+    engine = Engine()
+    with pytest.raises(KeyboardInterrupt), open_result(engine, (0, 0, 4, 4), "Layer"):
+        raise KeyboardInterrupt
+    assert engine.ended == [True]
+
+
+@pytest.mark.parametrize(("granted", "ended"), [("nothing", []), ((2, 4), [True])])
+def test_a_result_that_is_not_what_was_asked_for_is_an_error(granted, ended):
+    engine = Engine(granted)
+    with pytest.raises(RuntimeError, match="Blender"), open_result(engine, (0, 0, 4, 4), "Layer"):
+        pytest.fail("must not be entered")
+    assert engine.ended == ended
+
+
+def test_a_frame_that_has_no_room_is_refused_before_blender_is_asked(monkeypatch):
+    def refuse(size, dtype):
+        assert size == 2 * 4 * 5 * 16384 * 16384
+        raise MemoryError
+
+    monkeypatch.setattr("glanz.addon.results.np.empty", refuse)
+    engine = Engine()
+    with pytest.raises(MemoryError, match="16384x16384 px with 5 channels take 10.0 GB"):
+        make_room(engine, Settings(width=16384, height=16384, passes=("Combined", "Depth")), "Layer")
+    assert engine.ended == []
