@@ -17,6 +17,10 @@ class Columns(SimpleNamespace):
         """The rows `lanes` (M,), as a new table."""
         return Columns(**{name: column.take(lanes, axis=-1) for name, column in vars(self).items()})
 
+    def part(self, rows):
+        """The slice `rows` of the table, not copied."""
+        return Columns(**{name: column[..., rows] for name, column in vars(self).items()})
+
 
 def columns(rows, dtype=np.float32):
     """Stack `rows`, a sequence of {name: number or 3-tuple}, into one table of `dtype`."""

@@ -51,17 +51,18 @@ class Light(Protocol):
     def row(self, frame):
         """The parameters in render space (see world.frame), as {column: number or 3-tuple}."""
 
-    def power(self):
-        """Radiant flux [W], (r, g, b), or a bound of it, by which lights are chosen."""
+    def power(self, radius=1.0):
+        """Radiant flux [W], (r, g, b), or a bound of it, into a scene of `radius` [m]."""
 
     def check(self):
         """Raises SceneError, naming the light, for parameters out of range."""
 
-    def peak(self):
-        """Radiant intensity [W sr^-1], (r, g, b), into the brightest direction; for a sun, irradiance [W m^-2]."""
+    def weight(self, frame):
+        """What the light may weigh at a place in render space: power (r, g, b) / (nearness * distance^2 + radius2).
 
-    def reach(self):
-        """How far the light extends from its `position` [m]; both are asked of lights at a place only."""
+        power is the radiant intensity into the brightest direction, distance is taken from `centre`; a light that is
+        the same everywhere has nearness 0 and radius2 1. Returns {centre, power, nearness, radius2}.
+        """
 
     def has_extent(self):
         """Whether rays can meet the light at all."""

@@ -51,7 +51,7 @@ class Plan:
         on_rays = (
             *((add_background,) if needs.BACKGROUND in requirements else ()),
             *((add_light_hits,) if needs.LIGHT_HITS in requirements else ()),
-            *((add_emission,) if needs.EMISSIVE_MESHES in requirements and world.emitters.area.size else ()),
+            *((add_emission,) if needs.EMISSIVE_MESHES in requirements and world.emitters.count else ()),
         )
         on_surface = (add_direct_light,) if can_reflect and not world.lights.is_empty else ()
         chosen = tuple(PASSES[key] for key in settings.passes)

@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 
-
 from . import needs
 from .registry import BSDFS, CAMERAS, FILTERS, INTEGRATORS, LIGHTS, PASSES, SAMPLERS
 
@@ -59,7 +58,8 @@ class Requirements:
     def everything(cls, scene, settings):
         """As if every feature were asked for: what an engine does that does not look first. For tests and benchmarks."""
         asked = dict(cls.of(scene, settings).needs)
-        every = [*needs.MEANING, *(needs.of_plugin("bsdf", p) for p in BSDFS.values()), *(needs.of_plugin("light", p) for p in LIGHTS.values())]
+        plugins = [("bsdf", p) for p in BSDFS.values()] + [("light", p) for p in LIGHTS.values()]
+        every = [*needs.MEANING, *(needs.of_plugin(kind, p) for kind, p in plugins)]
         return cls({**asked, **{need: asked.get(need, ("everything",)) for need in every}})
 
     def __contains__(self, need):

@@ -18,7 +18,6 @@ from ..maths.vectors import cosine_power, reflect
 from ..maths.warps import square_to_cosine_power
 from . import registry
 
-
 LARGEST_EXPONENT = 1e6
 """A lobe 0.1 degrees wide; float32 directions cannot carry a sharper one."""
 

@@ -49,7 +49,7 @@ def survive(plan, rays, beta, valid):
 
 def only_lobe(plan, rays):
     """There is one lobe: no choice, and no random number."""
-    return None
+    return
 
 
 def one_of_the_lobes(plan, rays):

@@ -69,7 +69,7 @@ class AreaLight:
             "gain": gain if self.spread < PI else 1.0,
         }
 
-    def power(self):
+    def power(self, radius=1.0):
         """Radiant flux [W], (r, g, b): pi A L."""
         return tuple(PI * self.area() * c for c in self.radiance)
 
@@ -79,17 +79,14 @@ class AreaLight:
                 f"light '{self.name}': size {self.size_x} x {self.size_y} m, spread {self.spread} rad; allowed: from 0 on, above 0 to pi"
             )
 
-    @property
-    def position(self):
-        """The middle, world space [m]."""
-        return tuple(np.asarray(self.world_from_light, np.float64)[:3, 3])
-
-    def peak(self):
-        return tuple(self.area() * c for c in self.radiance)
-
-    def reach(self):
+    def weight(self, frame):
         x, y = self._axes()
-        return 0.5 * math.hypot(np.linalg.norm(x), np.linalg.norm(y))
+        return {
+            "centre": tuple(frame.points(np.asarray(self.world_from_light, np.float64)[:3, 3:4])[:, 0]),
+            "power": tuple(self.area() * frame.scale**2 * c for c in self.radiance),
+            "nearness": 1.0,
+            "radius2": 0.25 * float(x @ x + y @ y) * frame.scale**2,
+        }
 
     def has_extent(self):
         return self.area() > 0

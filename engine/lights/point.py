@@ -31,18 +31,15 @@ class PointLight:
     def row(self, frame):
         return bulbs.row(frame, self)
 
-    def power(self):
+    def power(self, radius=1.0):
         """Radiant flux [W], (r, g, b): 4 pi I."""
         return bulbs.power(self)
 
     def check(self):
         bulbs.check(self)
 
-    def peak(self):
-        return self.intensity
-
-    def reach(self):
-        return self.radius
+    def weight(self, frame):
+        return bulbs.weight(frame, self)
 
     def has_extent(self):
         return self.radius > 0

@@ -58,7 +58,7 @@ class SpotLight:
             "fade": (1 - cos_edge) * self.blend,
         }
 
-    def power(self):
+    def power(self, radius=1.0):
         """An upper bound of the radiant flux [W], (r, g, b), by which lights are chosen."""
         share = 0.5 * (1 - math.cos(0.5 * self.angle))
         return tuple(share * c for c in bulbs.power(self))
@@ -68,11 +68,8 @@ class SpotLight:
         if not (0 < self.angle <= math.pi and 0 <= self.blend <= 1):
             raise SceneError(f"light '{self.name}': angle {self.angle} rad, blend {self.blend}; allowed: 0 to pi, 0 to 1")
 
-    def peak(self):
-        return self.intensity
-
-    def reach(self):
-        return self.radius
+    def weight(self, frame):
+        return bulbs.weight(frame, self)
 
     def has_extent(self):
         return self.radius > 0

@@ -46,16 +46,16 @@ class SunLight:
             "radiance": tuple(c / (PI * sin2) if sin2 > 0 else 0.0 for c in self.irradiance),
         }
 
-    def power(self):
-        """The flux through a unit disk [W], (r, g, b); the scene's size comes in where lights are compared."""
-        return tuple(PI * c for c in self.irradiance)
+    def power(self, radius=1.0):
+        """The flux [W], (r, g, b), through the cross-section of a scene of `radius` [m]: pi r^2 E."""
+        return tuple(PI * radius**2 * c for c in self.irradiance)
 
     def check(self):
         if not 0 <= self.angle <= math.pi:
             raise SceneError(f"light '{self.name}': angle is {self.angle} rad, allowed: 0 to pi")
 
-    def peak(self):
-        return self.irradiance
+    def weight(self, frame):
+        return {"centre": (0.0, 0.0, 0.0), "power": self.irradiance, "nearness": 0.0, "radius2": 1.0}
 
     def has_extent(self):
         return self.angle > 0

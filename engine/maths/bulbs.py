@@ -31,6 +31,12 @@ def check(light):
         raise SceneError(f"light '{light.name}': radius is {light.radius} m, allowed: from 0 on")
 
 
+def weight(frame, light):
+    """See `interfaces.Light.weight`."""
+    placed = row(frame, light)
+    return {"centre": placed["position"], "power": placed["intensity"], "nearness": 1.0, "radius2": placed["radius"] ** 2}
+
+
 def power(light):
     """Radiant flux 4 pi I [W], (r, g, b)."""
     return tuple(4 * PI * c for c in light.intensity)

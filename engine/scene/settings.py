@@ -61,9 +61,13 @@ class Settings:
     def _check_border(self):
         if not self.border:
             return
-        whole = len(self.border) == 4 and all(isinstance(edge, int) for edge in self.border)
-        if not (whole and 0 <= self.border[0] < self.border[2] <= self.width and 0 <= self.border[1] < self.border[3] <= self.height):
-            raise SceneError(f"setting border is {self.border!r}, allowed: (x0, y0, x1, y1) inside {self.width}x{self.height} px and not empty")
+        if len(self.border) == 4 and all(isinstance(edge, int) for edge in self.border):
+            x0, y0, x1, y1 = self.border
+            if 0 <= x0 < x1 <= self.width and 0 <= y0 < y1 <= self.height:
+                return
+        raise SceneError(
+            f"setting border is {self.border!r}, allowed: (x0, y0, x1, y1) inside {self.width}x{self.height} px and not empty"
+        )
 
     @property
     def region(self):

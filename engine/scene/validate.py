@@ -59,11 +59,16 @@ def _check_material(material):
         if type(lobe) not in BSDFS.values():
             raise SceneError(f"material '{material.name}': {type(lobe).__name__} is not a BSDF")
         if not _is_colour(lobe.albedo()):
-            raise SceneError(f"material '{material.name}': {lobe.key} reflectance is {lobe.albedo()}, allowed: three finite numbers from 0 on")
+            raise SceneError(
+                f"material '{material.name}': {lobe.key} reflectance is {lobe.albedo()}, allowed: three finite numbers from 0 on"
+            )
         lobe.check(material.name)
         total += lobe.albedo()
     if (total > 1 + 1e-6).any():
-        raise SceneError(f"material '{material.name}' reflects {tuple(total.round(6))}, more than it receives: scale its reflectances to a sum of at most 1")
+        raise SceneError(
+            f"material '{material.name}' reflects {tuple(total.round(6).tolist())}, more than it receives: "
+            "scale its reflectances to a sum of at most 1"
+        )
 
 
 def _check_light(light, warnings):

@@ -94,7 +94,8 @@ class Accel:
 def _check_rays(o, d):
     for name, rays in (("origins", o), ("directions", d)):
         if not isinstance(rays, np.ndarray) or rays.ndim != 2 or rays.shape[0] != 3 or rays.dtype != np.float32:
-            raise AccelError(f"ray {name} must be a float32 array (3, N), not {getattr(rays, 'dtype', type(rays).__name__)} {getattr(rays, 'shape', '')}")
+            kind, shape = getattr(rays, "dtype", type(rays).__name__), getattr(rays, "shape", "")
+            raise AccelError(f"ray {name} must be a float32 array (3, N), not {kind} {shape}")
     if o.shape != d.shape:
         raise AccelError(f"{o.shape[1]} ray origins, but {d.shape[1]} directions")
     return o.shape[1]
@@ -140,7 +141,9 @@ def _embreex():
         try:
             from embreex import mesh_construction, rtcore_scene
         except ImportError as error:
-            raise AccelError(f"embreex cannot be loaded ({error}); install the package embreex, or the Glanz extension for this platform") from error
+            raise AccelError(
+                f"embreex cannot be loaded ({error}); install the package embreex, or the Glanz extension for this platform"
+            ) from error
     return rtcore_scene, mesh_construction
 
 

@@ -4,15 +4,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import Columns
 from ..errors import AccelError, SceneError
-from ..lights.triangle import lift
 from ..maths.transforms import cofactors, flips_orientation, transform_points
 from ..maths.vectors import cross, dot, length
 from ..scene.values import Material
 from .accel import Accel
+from .emitters import Emitters
 from .frame import Frame
-from .lights import Emitters, Lights
+from .lights import Lights
 from .materials import Materials
 
 FARTHEST = 1e12
@@ -46,7 +45,7 @@ class Triangles:
 class CompiledWorld:
     """What rays travel through.
 
-    emitters    columns of the triangles that emit, the last ones of `triangles` and of `lights`
+    emitters    the patches that emit: the last ones of `lights`, made of the last ones of `triangles`
     background  (3, 1) float32 [W m^-2 sr^-1]
     """
 
@@ -55,7 +54,7 @@ class CompiledWorld:
     triangles: Triangles
     materials: Materials
     lights: Lights
-    emitters: Columns
+    emitters: Emitters
     background: np.ndarray
     warnings: tuple
 
@@ -79,7 +78,8 @@ def compile_world(scene, bsdfs, smooth, has_choice):
     emits = table.emission.any(axis=0)[material]
     keep = np.nonzero(usable & (double_area > 0))[0]
     keep = keep[np.argsort(emits[keep], kind="stable")]
-    corners, double_area, normal, material = corners.take(keep, axis=2), double_area[keep], normal.take(keep, axis=1), material[keep]
+    corners, normal, material = corners.take(keep, axis=2), normal.take(keep, axis=1), material[keep]
+    indices = indices.take(keep, axis=1)
     e1, e2 = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     column, corner_normals = _smooth(parts, keep, normal) if smooth else (np.zeros(0, np.intp), np.zeros((9, 0), np.float32))
     triangles = Triangles(
@@ -91,18 +91,21 @@ def compile_world(scene, bsdfs, smooth, has_choice):
         first_emitter=keep.size - np.count_nonzero(emits[keep]),
     )
     try:
-        accel = Accel(vertices, indices.take(keep, axis=1))
+        accel = Accel(vertices, indices)
     except AccelError as error:
         raise SceneError(f"scene '{scene.name}': {error}") from error
     radius = float(np.abs(corners).max(initial=0)) / frame.scale or 1.0
-    emitters = Emitters(_emitter_columns(triangles, double_area, table), owner[keep][triangles.first_emitter :])
+    last = slice(triangles.first_emitter, None)
+    emitters = Emitters.of(
+        vertices, indices[:, last], normal[:, last], table.emission.take(material[last], axis=1), owner[keep][last]
+    )
     return CompiledWorld(
         frame=frame,
         accel=accel,
         triangles=triangles,
         materials=table,
         lights=Lights.of(scene.lights, emitters, frame, radius, has_choice),
-        emitters=emitters.k,
+        emitters=emitters,
         background=np.array(scene.world.radiance, np.float32)[:, None],
         warnings=warnings,
     )
@@ -141,21 +144,6 @@ def _measure(vertices, indices):
 def _report_unusable(usable):
     lost = np.count_nonzero(~usable)
     return (f"{lost} triangles are left out: a corner is not finite or too far away",) if lost else ()
-
-
-def _emitter_columns(triangles, double_area, table):
-    """The columns of `lights.triangle.TriangleLight`."""
-    last = slice(triangles.first_emitter, None)
-    v0, e1, e2, normal = triangles.shape[:, last].reshape(4, 3, -1)
-    return Columns(
-        v0=v0,
-        e1=e1,
-        e2=e2,
-        normal=normal,
-        lift=lift(v0, e1, e2),
-        area=(0.5 * double_area[last]).astype(np.float32),
-        radiance=table.emission.take(triangles.material[last], axis=1),
-    )
 
 
 def _place(o, row, smooth):

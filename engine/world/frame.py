@@ -9,7 +9,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-
 _MOST = 60
 """The largest exponent of a scale: its square still fits into float32, which intensities need."""
 

@@ -79,7 +79,7 @@ class ByPlace:
 
     @classmethod
     def of(cls, by_power, clusters):
-        """From {centre, power, nearness, radius2, count} of each cluster, in the order of their lights."""
+        """From {centre, power, nearness, radius2, count} of each cluster, in the order of their lights; power a number."""
         cluster = np.repeat(np.arange(len(clusters)), [c["count"] for c in clusters])
         edges = np.append(np.nonzero(np.diff(cluster, prepend=-1))[0], cluster.size)
         cdf = np.append(0.0, by_power.cdf)[edges]

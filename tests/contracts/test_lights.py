@@ -10,6 +10,7 @@ import pytest
 
 from glanz.engine import AreaLight, PointLight, SpotLight, SunLight
 from glanz.engine.interfaces import Light
+from glanz.engine.lights.parallelogram import ParallelogramLight
 from glanz.engine.lights.triangle import TriangleLight
 from glanz.engine.maths import bulbs
 from glanz.engine.maths.vectors import dot
@@ -266,20 +267,21 @@ def test_the_contract_catches_a_broken_light(law, value, changes):
         law(mutant_of(value, **changes))
 
 
-def test_emissive_triangles_offer_what_lights_do():
-    """`TriangleLight` is no plug-in; what it shares with lights is checked here, its irradiance among the polygon lights."""
+@pytest.mark.parametrize("light", [TriangleLight, ParallelogramLight])
+def test_emissive_patches_offer_what_lights_do(light):
+    """They are no plug-ins; what they share with lights is checked here, their irradiance among the polygon lights."""
     world = h.plan_of(h.scene([h.thing(h.quad(), h.lambert(0.5, emission=1.0))]), h.settings()).world
-    k = world.emitters
+    k = world.emitters.k
     assert set(vars(k)) >= {"v0", "e1", "e2", "normal", "radiance", "area"}
     n = 1_001
     p = h.directions(1, n, np.float32) + world.triangles.shape[:3, :1]
     u2 = h.uniform(2, n, np.float32)
-    rows = k.take(np.arange(n) % 2)
-    sample = TriangleLight.sample(rows, p, u2)
+    rows = k.take(np.zeros(n, int))
+    sample = light.sample(rows, p, u2)
     assert [x.dtype for x in sample] == [np.float32] * 4
     assert np.abs(h.dots(sample[0], sample[0]) - 1).max() <= 1e-6
     for lane in (0, 1, 777):
         one = slice(lane, lane + 1)
-        alone = TriangleLight.sample(k.take(np.array([lane % 2])), np.ascontiguousarray(p[:, one]), np.ascontiguousarray(u2[:, one]))
+        alone = light.sample(k, np.ascontiguousarray(p[:, one]), np.ascontiguousarray(u2[:, one]))
         for a, b in zip(alone, sample):
             assert h.same_bits(a, b[..., one])

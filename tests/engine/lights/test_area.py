@@ -7,7 +7,6 @@ import pytest
 
 from glanz.engine import AreaLight, SceneError
 from glanz.engine.lights import area as module
-from glanz.engine.lights.triangle import TriangleLight
 from glanz.engine.maths.vectors import dot
 from glanz.tests import helpers as h
 from glanz.tests.polygons import polygon_irradiance
@@ -73,13 +72,13 @@ def polygon_world(corners):
 
 
 def triangle_irradiances(world, p, normal, n=20_000, seed=1):
-    """E cos of n samples from `TriangleLight`, triangles chosen by area."""
-    k = world.emitters
+    """E cos of n samples from the world's emissive patches, chosen by area."""
+    k = world.emitters.k
     rng = np.random.default_rng(seed)
     share = k.area.astype(float) / k.area.sum(dtype=float)
     index = rng.choice(share.size, n, p=share / share.sum())
     there = world.frame.points(np.repeat(np.array(p)[:, None], n, 1)).astype(np.float32)
-    wi, _, E, _ = TriangleLight.sample(k.take(index), there, rng.random((2, n), np.float32))
+    wi, _, E, _ = world.lights.sample(index, there, rng.random((2, n), np.float32))
     return E[0] / share[index] * np.maximum(normal @ wi.astype(float), 0)
 
 
@@ -112,7 +111,7 @@ def test_area_lights_give_the_sum_over_their_edges_on_the_side_they_face(first):
 
 
 def test_the_polygon_formula_catches_a_light_sampled_without_its_area(monkeypatch):
-    corners, p, normal = np.array([(-0.5, -0.5, 1), (0.5, -0.5, 1), (0.5, 0.5, 1), (-0.5, 0.5, 1)]), np.zeros(3), np.array([0.6, 0, 0.8])
+    corners, p, normal = np.array([(-0.5, -0.5, 1), (0.5, -0.5, 1), (0.5, 0.5, 1)]), np.zeros(3), np.array([0.6, 0, 0.8])
     world, truth = polygon_world(corners), polygon_irradiance(corners, p, normal)
     assert h.mean_is(triangle_irradiances(world, p, normal), truth, floor=1e-5)
     monkeypatch.setattr("glanz.engine.lights.triangle.square_to_triangle", lambda u2: np.stack((u2[0], u2[1] * (1 - u2[0]))))

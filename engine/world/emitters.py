@@ -1,0 +1,112 @@
+"""The triangles that emit, as lights: pairs that make a parallelogram are one light, the others one each."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..arrays import Columns
+from ..constants import EPS32, LUMINANCE, PI
+from ..maths.patches import lift
+from ..maths.vectors import cross, length
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Emitters:
+    """The emissive patches of a world: first the parallelograms, then the triangles, each object by object.
+
+    k               columns of `maths.patches`
+    parallelograms  how many of them are
+    objects         (M,) ascending within each kind: which object a patch belongs to
+    patch           (E,) intp: the patch that each emissive triangle belongs to, in the order of the triangles
+    """
+
+    k: Columns
+    parallelograms: int
+    objects: np.ndarray
+    patch: np.ndarray
+
+    @classmethod
+    def of(cls, vertices, triangles, normal, radiance, owner):
+        """From vertices (3, V), and for each emissive triangle: vertex indices, normal, radiance (3, E), object (E,)."""
+        first = _first_of_pairs(vertices, triangles, radiance, owner)
+        single = np.ones(owner.size, bool)
+        single[first] = single[first + 1] = False
+        alone = np.nonzero(single)[0]
+        patch = np.empty(owner.size, np.intp)
+        patch[first] = patch[first + 1] = np.arange(first.size)
+        patch[alone] = first.size + np.arange(alone.size)
+
+        lead = np.concatenate((first, alone))
+        v0, v1, v2 = vertices.take(triangles.take(lead, axis=1), axis=1).transpose(1, 0, 2)
+        # A pair (v0, v1, v2), (v0, v2, v3) spans from v0 to v1 and v3; mirrored, (v0, v2, v1), (v0, v3, v2).
+        v2 = v2.copy()
+        v1 = v1.copy()
+        a, b = triangles.take(first, axis=1), triangles.take(first + 1, axis=1)
+        is_mirrored = a[1] == b[2]
+        v1[:, : first.size] = vertices.take(np.where(is_mirrored, b[1], a[1]), axis=1)
+        v2[:, : first.size] = vertices.take(np.where(is_mirrored, a[2], b[2]), axis=1)
+        e1, e2 = v1 - v0, v2 - v0
+        area = length(cross(e1.astype(np.float64), e2.astype(np.float64)))
+        area[first.size :] *= 0.5
+        k = Columns(
+            v0=np.ascontiguousarray(v0),
+            e1=e1,
+            e2=e2,
+            normal=normal.take(lead, axis=1),
+            lift=lift(v0, e1, e2),
+            area=area.astype(np.float32),
+            radiance=radiance.take(lead, axis=1),
+        )
+        return cls(k, first.size, owner[lead], patch)
+
+    @property
+    def count(self):
+        """How many patches there are."""
+        return self.objects.size
+
+    def power(self):
+        """Radiant flux of both sides, luminance, in units of render space squared, (M,) float64."""
+        return 2 * PI * self.k.area.astype(np.float64) * (np.array(LUMINANCE) @ self.k.radiance.astype(np.float64))
+
+    def _cluster_edges(self):
+        is_new = np.diff(self.objects, prepend=-1) != 0
+        if self.parallelograms < self.count:
+            is_new[self.parallelograms] = True
+        return np.append(np.nonzero(is_new)[0], self.count)
+
+    @property
+    def clusters(self):
+        """How many clusters there are: a cluster is what an object has of one kind of patch."""
+        return len(self._cluster_edges()) - 1
+
+    def weights(self):
+        """What each cluster weighs, see `interfaces.Light.weight`, and its `count` of patches."""
+        k, edges = self.k, self._cluster_edges()
+        corners = np.stack((k.v0, k.v0 + k.e1, k.v0 + k.e2)).astype(np.float64)
+        for part in map(slice, edges[:-1], edges[1:]):
+            low, high = corners[:, :, part].min(axis=(0, 2)), corners[:, :, part].max(axis=(0, 2))
+            yield {
+                "centre": tuple(0.5 * (low + high)),
+                "power": tuple((k.radiance[:, part].astype(np.float64) * k.area[part]).sum(axis=1)),
+                "nearness": 1.0,
+                "radius2": 0.25 * float(((high - low) ** 2).sum()),
+                "count": part.stop - part.start,
+            }
+
+
+def _first_of_pairs(vertices, triangles, radiance, owner):
+    """The first (P,) of each two triangles that follow each other and make a parallelogram about their shared edge."""
+    a, b = triangles[:, :-1], triangles[:, 1:]
+    alike = (a[0] == b[0]) & (owner[:-1] == owner[1:]) & (radiance[:, :-1] == radiance[:, 1:]).all(axis=0)
+    shares = alike & ((a[2] == b[1]) | (a[1] == b[2]))
+    # The diagonal's ends and the two other corners have the same sum, up to the rounding of their coordinates.
+    corner_a, corner_b = np.where(a[2] == b[1], a[1], a[2]), np.where(a[2] == b[1], b[2], b[1])
+    diagonal = np.where(a[2] == b[1], a[2], a[1])
+    v0, v1, v2, v3 = (vertices.take(i, axis=1).astype(np.float64) for i in (a[0], corner_a, diagonal, corner_b))
+    rounding = 4 * EPS32 * np.abs(np.stack((v0, v1, v2, v3))).max(axis=(0, 1), initial=0)
+    makes_pair = shares & (np.abs(v1 + v3 - v0 - v2) <= rounding).all(axis=0)
+    # Of pairs that overlap in a row, every other one.
+    index = np.arange(makes_pair.size)
+    starts_row = makes_pair & np.append(True, ~makes_pair[:-1])[: index.size]
+    start_of_row = np.maximum.accumulate(np.where(starts_row, index, 0))
+    return np.nonzero(makes_pair & ((index - start_of_row) % 2 == 0))[0]
