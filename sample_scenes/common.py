@@ -54,6 +54,12 @@ def unbiased_cycles(scene, samples, max_depth):
     cycles.filter_width = 1.5
 
 
+def exact_shadows(made):
+    """Keep Cycles from shifting shadow rays near the terminator of a smooth object: pretty, but not what is there."""
+    owner = made if hasattr(made, "shadow_terminator_geometry_offset") else made.cycles
+    owner.shadow_terminator_geometry_offset = 0.0
+
+
 def save(scene, script):
     """Write the .blend file named on the command line, or the one beside `script`, and leave.
 
@@ -73,10 +79,13 @@ def save(scene, script):
 def world(colour, strength):
     """A world of constant colour."""
     made = bpy.data.worlds.new("World")
-    made.use_nodes = True
-    background = made.node_tree.nodes["Background"]
+    tree = _empty_tree(made)
+    background = tree.nodes.new("ShaderNodeBackground")
     background.inputs["Color"].default_value = (*colour, 1.0)
     background.inputs["Strength"].default_value = strength
+    output = tree.nodes.new("ShaderNodeOutputWorld")
+    output.location = (300, 0)
+    tree.links.new(background.outputs[0], output.inputs["Surface"])
     return made
 
 
@@ -135,10 +144,8 @@ def emission(name, colour, strength):
 
 def _material(name, node_type, colour, **inputs):
     made = bpy.data.materials.new(name)
-    made.use_nodes = True
     made.diffuse_color = (*colour, 1.0)  # what the solid viewport shows
-    tree = made.node_tree
-    tree.nodes.clear()
+    tree = _empty_tree(made)
     shader = tree.nodes.new(node_type)
     output = tree.nodes.new("ShaderNodeOutputMaterial")
     output.location = (300, 0)
@@ -147,6 +154,13 @@ def _material(name, node_type, colour, **inputs):
         shader.inputs[key].default_value = value
     tree.links.new(shader.outputs[0], output.inputs["Surface"])
     return made
+
+
+def _empty_tree(datablock):
+    if datablock.node_tree is None:  # from Blender 5 on there always is one, and the setting is on its way out
+        datablock.use_nodes = True
+    datablock.node_tree.nodes.clear()
+    return datablock.node_tree
 
 
 # --- meshes -----------------------------------------------------------------------------------------------------------

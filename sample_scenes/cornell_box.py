@@ -37,8 +37,7 @@ def build():
     common.add(scene, "Tall box", common.box("Tall box", (0.58, 0.58, 1.16), white), turned)
     for name, radius, x, y in (("Large sphere", 0.34, 0.43, -0.12), ("Small sphere", 0.17, -0.14, -0.56)):
         made = common.add(scene, name, common.sphere(name, radius, white), Matrix.Translation((x, y, radius)))
-        # Cycles would shift shadow rays near the terminator of a smooth mesh: pretty, but not what is there.
-        made.cycles.shadow_terminator_geometry_offset = 0.0
+        common.exact_shadows(made)
     # The front opening fills the frame to within a percent.
     common.camera(scene, (0.0, -3.74, 1.0), (0.0, 0.0, 1.0), lens=50.0)
     return scene

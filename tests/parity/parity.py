@@ -2,13 +2,14 @@
 
 import bpy
 import numpy as np
+
 from glanz.tests.addon import blender
 
 TOLERANCE = 0.005
 """Largest relative difference between the block means of the two engines."""
 BLOCKS = 4
 """Blocks per side of the picture."""
-FLOOR = 0.1
+FLOOR = 0.25
 """Blocks darker than this share of the brightest one are compared in units of it."""
 
 
@@ -35,15 +36,15 @@ def pixels(engine, path):
     return combined[..., :3].astype(np.float64)
 
 
-def block_means(image):
-    """(BLOCKS, BLOCKS, 3)."""
+def block_means(image, blocks=BLOCKS):
+    """(blocks, blocks, 3)."""
     height, width, _ = image.shape
-    return image.reshape(BLOCKS, height // BLOCKS, BLOCKS, width // BLOCKS, 3).mean(axis=(1, 3))
+    return image.reshape(blocks, height // blocks, blocks, width // blocks, 3).mean(axis=(1, 3))
 
 
-def difference(image, reference):
-    """The largest relative difference of the block means of two pictures."""
-    a, b = block_means(image), block_means(reference)
+def difference(image, reference, blocks=BLOCKS):
+    """The largest relative difference of the means of `blocks` x `blocks` blocks of two pictures."""
+    a, b = block_means(image, blocks), block_means(reference, blocks)
     brightest = b.max()
     assert brightest > 0, "the reference is black"
     return float((np.abs(a - b) / np.maximum(b, FLOOR * brightest)).max())
