@@ -50,11 +50,13 @@ class ArrayReader:
     def decode_inline(self, content, dtype, shape):
         """The array of a JSON list, its dtype's name and its shape."""
         try:
-            values = np.array(content, _numeric(np.dtype(dtype)))
-            shape = tuple(shape)
-            if values.size > INLINE or any(type(n) is not int for n in shape):
-                raise ValueError(f"shape {shape}")
-            return values.reshape(shape)
+            values = np.array(content)
+            _numeric(values.dtype)
+            with np.errstate(all="ignore"):  # what does not fit is not equal, below
+                array = values.astype(_numeric(np.dtype(dtype)))
+            if values.size > INLINE or not np.array_equal(values, array) or any(type(n) is not int for n in shape):
+                raise ValueError(f"not {dtype} of shape {shape}")
+            return array.reshape(shape)
         except (TypeError, ValueError, OverflowError, SyntaxError, RecursionError) as error:
             raise FileError(f"an array in its JSON is damaged ({error})") from error
 

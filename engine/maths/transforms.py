@@ -3,23 +3,18 @@
 import numpy as np
 
 
-def transform_points(matrix, p):
-    """Points (3, N) through an affine (4, 4), in float64."""
-    return matrix[:3, :3] @ np.asarray(p, np.float64) + matrix[:3, 3:4]
-
-
 def cofactors(matrix):
-    """The cofactor matrix (3, 3) of the linear part: what carries normals, also where there is no inverse.
+    """The cofactor matrix (..., 3, 3) of the linear part: what carries normals, also where there is no inverse.
 
     cof(M) = det(M) M^-T; the sign of the determinant keeps normals on their side of a mirrored surface.
     """
-    a, b, c = np.asarray(matrix, np.float64)[:3, :3]
-    return np.stack((np.cross(b, c), np.cross(c, a), np.cross(a, b)))
+    a, b, c = np.moveaxis(np.asarray(matrix, np.float64)[..., :3, :3], -2, 0)
+    return np.stack((np.cross(b, c), np.cross(c, a), np.cross(a, b)), axis=-2)
 
 
 def flips_orientation(matrix):
-    """Whether the transform turns right hands into left hands (negative determinant)."""
-    return np.linalg.det(np.asarray(matrix, np.float64)[:3, :3]) < 0
+    """Whether transforms (..., 4, 4) turn right hands into left hands (negative determinant)."""
+    return np.linalg.det(np.asarray(matrix, np.float64)[..., :3, :3]) < 0
 
 
 def look_at(eye, target, up=(0.0, 0.0, 1.0)):

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import AccelError, SceneError
-from ..maths.transforms import cofactors, flips_orientation, transform_points
 from ..maths.vectors import cross, dot, length
 from ..scene.values import Material
 from .accel import Accel
@@ -13,10 +12,10 @@ from .emitters import Emitters
 from .frame import Frame
 from .lights import Lights
 from .materials import Materials
+from .placement import place
 
 FARTHEST = 1e12
 """In render space; Embree's robust test overflows from 3e12 on, and finds nothing."""
-_BLACK = Material(name="none")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -67,11 +66,10 @@ def compile_world(scene, bsdfs, smooth, has_choice):
     """
     materials, row = _number_materials(scene)
     table = Materials.of(materials, bsdfs)
-    parts = [_place(o, row, smooth) for o in scene.objects if o.mesh.triangles.shape[1]]
+    parts = place(scene.objects, row, smooth)
     frame, vertices, indices = _merge(parts, scene.camera.position)
-    material = _concatenate([part["material"] for part in parts], (0,)).astype(np.intp)
-
-    owner = np.repeat(np.arange(len(parts)), [part["triangles"].shape[1] for part in parts])
+    material = _concatenate([part.material for part in parts], 0).astype(np.intp)
+    owner = _concatenate([part.owner for part in parts], 0).astype(np.intp)
     corners, double_area, normal, usable = _measure(vertices, indices)
     warnings = _report_unusable(usable)
     # A triangle without an area is never hit: leaving it out changes no picture. Emitters come last.
@@ -112,18 +110,18 @@ def compile_world(scene, bsdfs, smooth, has_choice):
 
 
 def _number_materials(scene):
-    """The different materials of `scene`, with black at the end, and the number of each."""
+    """The different materials of `scene`, black where an object has none, and the number of each; None is black."""
     materials = [*dict.fromkeys(m for o in scene.objects for m in o.materials)]
-    if not materials or any(not o.materials for o in scene.objects):
-        materials.append(_BLACK)
-    return materials, {material: i for i, material in enumerate(materials)}
+    if not all(o.materials for o in scene.objects) or not materials:
+        materials.append(Material(name="none"))
+    return materials, {material: i for i, material in enumerate(materials)} | {None: len(materials) - 1}
 
 
 def _merge(parts, origin):
     """Render space, and the vertices (3, V) float32 and triangles (3, F) of all parts in it."""
-    vertices = _concatenate([part["vertices"] for part in parts], (3, 0))
-    counts = np.cumsum([0] + [part["vertices"].shape[1] for part in parts])
-    indices = _concatenate([part["triangles"] + start for part, start in zip(parts, counts)], (3, 0)).astype(np.int32)
+    vertices = _concatenate([part.vertices for part in parts], (3, 0))
+    counts = np.cumsum([0] + [part.vertices.shape[1] for part in parts])
+    indices = _concatenate([part.triangles + start for part, start in zip(parts, counts)], (3, 0)).astype(np.int32)
     with np.errstate(over="ignore", invalid="ignore"):
         frame = Frame.around(origin, length(vertices - origin[:, None]))
         # Rounded once; from here on the rounded values are the geometry, for Embree and for everything else.
@@ -146,33 +144,10 @@ def _report_unusable(usable):
     return (f"{lost} triangles are left out: a corner is not finite or too far away",) if lost else ()
 
 
-def _place(o, row, smooth):
-    """One object in world space, float64: its vertices, triangles, materials' rows, and corner normals if wanted."""
-    mesh, matrix = o.mesh, o.world_from_object
-    triangles = mesh.triangles
-    corner = mesh.normal_indices
-    if flips_orientation(matrix):  # a mirrored triangle keeps its front by turning its winding
-        triangles = triangles[[0, 2, 1]]
-        corner = corner[[0, 2, 1]]
-    part = {"vertices": transform_points(matrix, mesh.vertices), "triangles": triangles}
-    rows = np.array([row[m] for m in o.materials] or [row[_BLACK]], np.int32)
-    if mesh.material_indices.size:
-        part["material"] = rows[np.clip(mesh.material_indices, 0, len(rows) - 1)]
-    else:
-        part["material"] = np.full(triangles.shape[1], rows[0], np.int32)
-    part["corner_normals"] = np.zeros((9, 0), np.float32)
-    if smooth and mesh.is_smooth:
-        normals = cofactors(matrix) @ mesh.normals.astype(np.float64)
-        norm = length(normals)
-        normals = (normals / np.where(norm > 0, norm, 1)).astype(np.float32)
-        part["corner_normals"] = normals[:, corner].transpose(1, 0, 2).reshape(9, -1)
-    return part
-
-
 def _smooth(parts, keep, flat):
     """`Triangles.smooth` and `.corner_normals`; corners whose normal has no direction take the geometric one."""
-    given = _concatenate([part["corner_normals"] for part in parts], (9, 0)).astype(np.float32)
-    is_smooth = np.concatenate([np.full(part["triangles"].shape[1], part["corner_normals"].shape[1] > 0) for part in parts] or [[]])
+    given = _concatenate([part.corner_normals for part in parts], (9, 0)).astype(np.float32)
+    is_smooth = _concatenate([np.full(part.owner.size, part.corner_normals.shape[1] > 0) for part in parts], 0)
     column = np.where(is_smooth, np.cumsum(is_smooth) - 1, -1).astype(np.intp)[keep]
     kept = np.nonzero(column >= 0)[0]
     given, flat = given.take(column[kept], axis=1), flat.take(kept, axis=1)

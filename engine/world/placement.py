@@ -1,0 +1,75 @@
+"""Objects placed in the world: all instances of a mesh at once."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..maths.transforms import cofactors, flips_orientation
+from ..maths.vectors import length
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Part:
+    """All objects that share one mesh, in world space and one after the other.
+
+    vertices        (3, V) float64 [m]
+    triangles       (3, F) intp, into these vertices; counter-clockwise also where an object is mirrored
+    corner_normals  (9, F) float32, world space, unit; (9, 0): flat, or not wanted
+    material        (F,) intp, rows of the materials
+    owner           (F,) intp, the object's place in the scene
+    """
+
+    vertices: np.ndarray
+    triangles: np.ndarray
+    corner_normals: np.ndarray
+    material: np.ndarray
+    owner: np.ndarray
+
+
+def place(objects, row, smooth):
+    """The `Part`s of a scene's `objects`; `row` numbers the materials, None is black; `smooth` asks for normals."""
+    same_mesh = {}
+    for place_in_scene, o in enumerate(objects):
+        if o.mesh.triangles.shape[1]:
+            same_mesh.setdefault(id(o.mesh), []).append((place_in_scene, o))
+    return [_place_instances(instances, row, smooth) for instances in same_mesh.values()]
+
+
+def _place_instances(instances, row, smooth):
+    mesh = instances[0][1].mesh
+    count, faces, points = len(instances), mesh.triangles.shape[1], mesh.vertices.shape[1]
+    matrix = np.stack([o.world_from_object for _, o in instances])
+    vertices = matrix[:, :3, :3] @ mesh.vertices.astype(np.float64) + matrix[:, :3, 3:]
+    mirrored = flips_orientation(matrix)
+    triangles = _corners(mesh.triangles, mirrored)
+    triangles += points * np.arange(count)[:, None]
+    rows = [_material_rows(o, row) for _, o in instances]
+    corner_normals = np.zeros((9, 0), np.float32)
+    if smooth and mesh.is_smooth:
+        normals = (cofactors(matrix) @ mesh.normals.astype(np.float64)).transpose(1, 0, 2)
+        norm = length(normals)
+        normals /= np.where(norm > 0, norm, 1)
+        indices = _corners(mesh.normal_indices, mirrored) + mesh.normals.shape[1] * np.arange(count)[:, None]
+        corners = normals.reshape(3, -1).astype(np.float32).take(indices.reshape(3, -1), axis=1)
+        corner_normals = corners.transpose(1, 0, 2).reshape(9, -1)
+    return Part(
+        vertices=vertices.transpose(1, 0, 2).reshape(3, -1),
+        triangles=triangles.reshape(3, -1),
+        corner_normals=corner_normals,
+        material=np.concatenate(rows),
+        owner=np.repeat([place_in_scene for place_in_scene, _ in instances], faces),
+    )
+
+
+def _corners(indices, mirrored):
+    """Corner indices (3, F) for each instance, (3, K, F) intp; a mirrored triangle keeps its front by turning its winding."""
+    each = np.repeat(indices.astype(np.intp)[:, None], mirrored.size, axis=1)
+    each[1:, mirrored] = each[:0:-1, mirrored]
+    return each
+
+
+def _material_rows(o, row):
+    rows = np.array([row[m] for m in o.materials] or [row[None]], np.intp)
+    if o.mesh.material_indices.size:
+        return rows.take(o.mesh.material_indices, mode="clip")
+    return np.full(o.mesh.triangles.shape[1], rows[0])
