@@ -10,8 +10,6 @@ import pytest
 
 from glanz.engine import AreaLight, PointLight, SpotLight, SunLight
 from glanz.engine.interfaces import Light
-from glanz.engine.lights.parallelogram import ParallelogramLight
-from glanz.engine.lights.triangle import TriangleLight
 from glanz.engine.maths import bulbs
 from glanz.engine.maths.vectors import dot
 from glanz.engine.registry import LIGHTS
@@ -267,21 +265,23 @@ def test_the_contract_catches_a_broken_light(law, value, changes):
         law(mutant_of(value, **changes))
 
 
-@pytest.mark.parametrize("light", [TriangleLight, ParallelogramLight])
-def test_emissive_patches_offer_what_lights_do(light):
-    """They are no plug-ins; what they share with lights is checked here, their irradiance among the polygon lights."""
-    world = h.plan_of(h.scene([h.thing(h.quad(), h.lambert(0.5, emission=1.0))]), h.settings()).world
-    k = world.emitters.k
-    assert set(vars(k)) >= {"v0", "e1", "e2", "normal", "radiance", "area"}
+def test_emissive_meshes_offer_what_lights_do():
+    """What emits is no plug-in; what it shares with lights is checked here, its irradiance among the area lights."""
+    meshes = [h.thing(h.quad(), h.lambert(0.5, emission=1.0)), h.thing(h.icosphere(0, centre=(2, 1, 0)), h.lambert(0.5, emission=2.0))]
+    world = h.plan_of(h.scene(meshes), h.settings()).world
     n = 1_001
     p = h.directions(1, n, np.float32) + world.triangles.shape[:3, :1]
     u2 = h.uniform(2, n, np.float32)
-    rows = k.take(np.zeros(n, int))
-    sample = light.sample(rows, p, u2)
+    index, probability, rest = world.lights.choice.choose(p, u2.copy())
+    sample = world.lights.sample(index, p, rest.copy())
     assert [x.dtype for x in sample] == [np.float32] * 4
     assert np.abs(h.dots(sample[0], sample[0]) - 1).max() <= 1e-6
-    for lane in (0, 1, 777):
+    assert 1 < np.unique(index).size <= 22
+    for lane in (0, 1, 777, n - 1):
         one = slice(lane, lane + 1)
-        alone = light.sample(k, np.ascontiguousarray(p[:, one]), np.ascontiguousarray(u2[:, one]))
-        for a, b in zip(alone, sample):
+        there = np.ascontiguousarray(p[:, one])
+        alone_index, alone_probability, alone_rest = world.lights.choice.choose(there, u2[:, one].copy())
+        assert alone_index[0] == index[lane]
+        assert h.same_bits(alone_probability, probability[one])
+        for a, b in zip(world.lights.sample(alone_index, there, alone_rest), sample):
             assert h.same_bits(a, b[..., one])

@@ -65,21 +65,18 @@ def random_polygon(seed):
 
 
 def polygon_world(corners):
-    """The compiled world of an emissive fan of triangles with radiance 1, and its triangles' share of the area."""
+    """The compiled world of an emissive fan of triangles with radiance 1."""
     mesh = h.Mesh(name="polygon", vertices=corners.T, triangles=np.array([(0, i, i + 1) for i in range(1, len(corners) - 1)]).T)
     camera = h.PerspectiveCamera.look_at(corners.mean(axis=0) + (0, 0, 1), corners.mean(axis=0), up=(1, 0.1, 0))
     return h.plan_of(h.scene([h.thing(mesh, h.lambert(0.5, emission=1.0))], camera=camera), h.settings()).world
 
 
-def triangle_irradiances(world, p, normal, n=20_000, seed=1):
-    """E cos of n samples from the world's emissive patches, chosen by area."""
-    k = world.emitters.k
-    rng = np.random.default_rng(seed)
-    share = k.area.astype(float) / k.area.sum(dtype=float)
-    index = rng.choice(share.size, n, p=share / share.sum())
-    there = world.frame.points(np.repeat(np.array(p)[:, None], n, 1)).astype(np.float32)
-    wi, _, E, _ = world.lights.sample(index, there, rng.random((2, n), np.float32))
-    return E[0] / share[index] * np.maximum(normal @ wi.astype(float), 0)
+def emitted_irradiances(world, p, normal, n=20_000, seed=1):
+    """E cos of n samples of what emits in `world`: a light chosen, and a point on it."""
+    there = world.frame.points(np.repeat(np.array(p, float)[:, None], n, 1)).astype(np.float32)
+    index, probability, u2 = world.lights.choice.choose(there, h.uniform(seed, n, np.float32))
+    wi, _, E, _ = world.lights.sample(index, there, u2)
+    return E[0] / probability * np.maximum(normal @ wi.astype(float), 0)
 
 
 @pytest.mark.parametrize("first", range(0, 50, 10))
@@ -91,7 +88,7 @@ def test_emissive_polygons_give_the_sum_over_their_edges(first):
     for seed in range(first, first + 10):
         corners, p, normal = random_polygon(seed)
         truth = polygon_irradiance(corners, p, normal)
-        values = triangle_irradiances(polygon_world(corners), p, normal)
+        values = emitted_irradiances(polygon_world(corners), p, normal)
         assert h.mean_is(values, truth, floor=1e-5, absolute=1e-6), seed
 
 
@@ -110,12 +107,14 @@ def test_area_lights_give_the_sum_over_their_edges_on_the_side_they_face(first):
         assert h.mean_is(irradiances(light, normal, p, h.uniform(seed, 20_000)), truth, absolute=1e-6), seed
 
 
-def test_the_polygon_formula_catches_a_light_sampled_without_its_area(monkeypatch):
+def test_the_polygon_formula_catches_one_percent_and_a_light_sampled_in_part(monkeypatch):
     corners, p, normal = np.array([(-0.5, -0.5, 1), (0.5, -0.5, 1), (0.5, 0.5, 1)]), np.zeros(3), np.array([0.6, 0, 0.8])
     world, truth = polygon_world(corners), polygon_irradiance(corners, p, normal)
-    assert h.mean_is(triangle_irradiances(world, p, normal), truth, floor=1e-5)
-    monkeypatch.setattr("glanz.engine.lights.triangle.square_to_triangle", lambda u2: np.stack((u2[0], u2[1] * (1 - u2[0]))))
-    assert not h.mean_is(triangle_irradiances(world, p, normal), truth, floor=1e-5)
+    assert h.mean_is(emitted_irradiances(world, p, normal), truth, floor=1e-5)
+    assert not h.mean_is(emitted_irradiances(world, p, normal, n=200_000), truth * 1.01, floor=1e-5)
+    sample = type(world.lights).sample
+    monkeypatch.setattr(type(world.lights), "sample", lambda self, index, p, u2: sample(self, index, p, u2 * np.float32(0.7)))
+    assert not h.mean_is(emitted_irradiances(world, p, normal), truth, floor=1e-5)
 
 
 def test_disks_and_ellipses():

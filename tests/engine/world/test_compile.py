@@ -1,0 +1,119 @@
+"""Scene values become one mesh, one table of materials and one of lights (catalogue A14)."""
+
+import numpy as np
+import pytest
+
+from glanz.engine import Lambert, Material, Phong, SceneError
+from glanz.engine.world import accel
+from glanz.tests import helpers as h
+
+
+def world_of(*objects, **others):
+    return h.plan_of(h.scene(objects, **others), h.settings()).world
+
+
+def render_space(world, p):
+    return world.frame.points(np.asarray(p, float))
+
+
+@pytest.mark.parametrize(
+    "linear",
+    [np.eye(3), np.diag((-1.0, 1, 1)), h.rotation(1) @ np.diag((1e-3, 1, 1e3)), h.rotation(2) @ np.diag((1.0, -2, 3)), [[1, 2, 0], [0, 1, 3], [0, 0, 1]]],
+    ids=["still", "mirrored", "stretched", "mirrored and stretched", "sheared"],
+)
+def test_outside_stays_outside(linear):
+    """A14: geometric and shading normals of a closed mesh point out of it under any transform, mirrored or stretched.
+
+    Where stretching turns a facet and the normal at its corner more than 90 degrees apart, the facet decides the side.
+    """
+    mesh = h.icosphere(2, smooth=True)
+    matrix = h.affine(np.array(linear, float), (5, 6, 7))
+    plan = h.plan_of(h.scene([h.thing(mesh, matrix=matrix)]), h.settings())
+    shape = plan.world.triangles.shape.astype(np.float64).reshape(4, 3, -1)
+    centre = render_space(plan.world, matrix[:3, 3:])
+    middle = shape[0] + (shape[1] + shape[2]) / 3 - centre
+    assert (h.dots(shape[3], middle) > 0).all()
+    # The normal of the ellipsoid at M x is M^-T x; the corners of its facets carry that.
+    corners = plan.world.triangles.corner_normals.astype(np.float64).reshape(3, 3, -1)[0]
+    truth = np.linalg.inv(matrix[:3, :3]).T @ mesh.normals[:, mesh.triangles[0]].astype(np.float64)
+    truth /= np.linalg.norm(truth, axis=0)
+    facing = np.sign(h.dots(truth, shape[3]))
+    assert h.dots(corners, truth * facing).min() >= 1 - 1e-5
+    assert (facing > 0).mean() > 0.9
+    assert (facing > 0).all() or np.linalg.cond(linear) > 4
+
+
+def test_geometry_is_rounded_once():
+    """World vertices in float64, rebased and scaled, then rounded: each within half a unit of float32."""
+    mesh = h.Mesh(name="star", vertices=np.random.default_rng(1).standard_normal((3, 30)), triangles=np.arange(30).reshape(-1, 3).T)
+    matrix = h.affine(h.rotation(4) * 1.7, (1e6, -2e6, 3e6))
+    camera = h.PerspectiveCamera.look_at((1e6 + 5, -2e6, 3e6), (1e6, -2e6, 3e6))
+    world = world_of(h.thing(mesh, matrix=matrix), camera=camera)
+    truth = render_space(world, matrix[:3, :3] @ mesh.vertices + matrix[:3, 3:])[:, mesh.triangles[0]]
+    first = world.triangles.shape[:3]
+    assert (np.abs(first - truth) <= 2.0**-24 * np.abs(truth) * 1.0001).all()
+
+
+def test_triangles_without_an_area_or_a_number_are_left_out_and_the_latter_told():
+    vertices = np.array([[0, 1, 0, np.nan, 1e30], [0, 0, 1, 0, 0], [0, 0, 0, 0, 0]], float)
+    triangles = np.array([[0, 1, 2], [0, 1, 1], [0, 0, 0], [0, 1, 3], [0, 1, 4]]).T
+    world = world_of(h.thing(h.Mesh(name="odd", vertices=vertices, triangles=triangles)))
+    assert world.triangles.material.size == 1
+    assert world.warnings == ("2 triangles are left out: a corner is not finite or too far away",)
+
+
+def test_each_triangle_wears_its_material():
+    red, green, blue = (Material(name=n, lobes=(Lambert(c),)) for n, c in (("r", (0.9, 0, 0)), ("g", (0, 0.9, 0)), ("b", (0, 0, 0.9))))
+    mesh = h.Mesh(name="fan", vertices=h.box().vertices, triangles=h.box().triangles, material_indices=np.arange(12) % 4)
+    world = world_of(h.Object(name="o", mesh=mesh, materials=(red, green, blue)), h.thing(h.quad((9, 9, 9)), green))
+    reflectance = world.materials.lobes[0].k.reflectance[:, world.triangles.material]
+    # Indices beyond the last material take the last.
+    expected = [((0, 1, 2, 2)[i % 4]) for i in range(12)] + [1, 1]
+    assert reflectance.argmax(axis=0).tolist() == expected
+
+
+def test_objects_without_a_material_are_black():
+    world = world_of(h.Object(name="bare", mesh=h.quad()), h.thing(h.quad((0, 0, 1)), h.lambert(0.5)))
+    reflectance = world.materials.lobes[0].k.reflectance[:, world.triangles.material]
+    assert reflectance[0].tolist() == [0, 0, 0.5, 0.5]
+
+
+def test_emissive_triangles_come_last_and_keep_their_radiance():
+    world = world_of(h.thing(h.box(), h.lambert(0.5, "lamp", (3, 2, 1))), h.thing(h.icosphere(0, centre=(0, 0, 3)), h.lambert(0.5, "floor")))
+    assert world.triangles.first_emitter == 20
+    assert (world.triangles.material[20:] == world.triangles.material[-1]).all()
+    k = world.emitters.k
+    assert (k.radiance == np.array([[3], [2], [1]])).all()
+    assert k.area.sum() / world.frame.scale**2 == pytest.approx(6, rel=1e-6)
+
+
+def test_instances_share_their_mesh_and_keep_their_places():
+    mesh = h.quad()
+    places = [(0, 0, 0), (3, 0, 0), (0, 3, 1)]
+    world = world_of(*(h.thing(mesh, matrix=h.affine(translation=p)) for p in places))
+    shape = world.triangles.shape.reshape(4, 3, -1)
+    middle = (shape[0] + (shape[1] + shape[2]) / 3).reshape(3, 3, 2).mean(axis=2)
+    np.testing.assert_allclose(middle, render_space(world, np.array(places).T), atol=1e-6)
+
+
+def test_a_flat_transform_gives_no_surface_and_no_crash():
+    world = world_of(h.thing(h.box(), matrix=h.affine(np.zeros((3, 3)), (1, 1, 1))), h.thing(h.icosphere(1, smooth=True), matrix=h.affine(np.diag((1.0, 1, 0)))))
+    assert np.isfinite(world.triangles.shape).all()
+
+
+def test_a_world_without_triangles_has_none():
+    world = world_of(h.Object(name="empty", mesh=h.Mesh(name="empty", vertices=np.zeros((3, 0)), triangles=np.zeros((3, 0)))))
+    assert world.triangles.material.size == 0
+    assert world.accel.is_empty
+
+
+def test_geometry_beyond_memory_is_refused_by_the_scene(monkeypatch):
+    monkeypatch.setattr(accel, "_free_memory", lambda: 100)
+    with pytest.raises(SceneError, match=r"scene 'Scene': 2 triangles need about .* GiB"):
+        world_of(h.thing(h.quad()))
+
+
+def test_lobes_of_one_kind_in_one_material_get_a_slot_each():
+    two = Material(name="two", lobes=(Phong((0.2,) * 3, 3.0), Phong((0.3,) * 3, 30.0)))
+    world = world_of(h.thing(h.quad()), h.thing(h.quad((0, 0, 2)), two))
+    assert [lobe.bsdf.key for lobe in world.materials.lobes] == ["lambert", "phong", "phong"]
