@@ -11,6 +11,8 @@ from ..engine.io.png import write_png
 from .window import fitted
 
 CURE = "install it with: pip install 'glanz[blender]', on Python 3.11 or 3.13; or use a scene file, written by glanz export elsewhere"
+LIBRARIES = "libgl1 libice6 libsm6 libx11-6 libxfixes3 libxi6 libxkbcommon0 libxrender1"
+"""What bpy takes from the system, as packages of Debian."""
 
 
 @dataclass(frozen=True)
@@ -47,8 +49,11 @@ class _Blend:
         before_blender()
         try:
             import bpy  # noqa: F401 - asks whether there is one
-        except ImportError as error:
+        except ModuleNotFoundError as error:
             raise FileError(f"cannot read '{path}': .blend files need Blender's Python module bpy ({error}); {CURE}") from error
+        except ImportError as error:
+            cure = f"on Debian or Ubuntu: sudo apt-get install {LIBRARIES}"
+            raise FileError(f"cannot read '{path}': Blender's Python module bpy does not load ({error}); {cure}") from error
         from ..addon import capture
 
         self._capture = capture

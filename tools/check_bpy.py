@@ -7,7 +7,6 @@ import importlib.util
 import re
 import subprocess
 import sys
-from pathlib import Path
 
 DEBIAN = {
     "libX11.so": "libx11-6", "libXrender.so": "libxrender1", "libXfixes.so": "libxfixes3", "libXi.so": "libxi6",
@@ -57,12 +56,9 @@ def main():
         print(f"Blender {result.stdout.split()[-1]} loads.")
         return 0
     error = (result.stderr.strip().splitlines() or [f"exit status {result.returncode}"])[-1]
-    libraries = []
-    for library in Path(spec.origin).parent.glob("**/*.so*"):
-        if library.parent.name in ("bpy", "lib"):
-            ldd = subprocess.run(["ldd", str(library)], capture_output=True, text=True, stdin=subprocess.DEVNULL)
-            libraries += missing_libraries(ldd.stdout)
-    print(advice(error, sorted(set(libraries))), file=sys.stderr)
+    # Of the module itself, whose list includes those of the libraries that it brings along; others are for graphics cards.
+    ldd = subprocess.run(["ldd", spec.origin], capture_output=True, text=True, stdin=subprocess.DEVNULL)
+    print(advice(error, sorted(set(missing_libraries(ldd.stdout)))), file=sys.stderr)
     return 1
 
 
