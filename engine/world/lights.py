@@ -16,12 +16,22 @@ MAX_HITTABLE = 16
 
 @dataclass(frozen=True, slots=True)
 class Group:
-    """Lights of one kind: indices first .. first + count - 1 of all lights."""
+    """Lights of one kind: indices first .. first + count - 1 of all lights.
+
+    is_met  scattered rays look for them; else shadow rays are the only way to find them, and must not share with another
+    """
 
     light: type
     k: Columns
     first: int
     count: int
+    is_met: bool = True
+
+    def sample(self, row, p, u2):
+        """A point on the lights `row` (N,) of the group, or on its only light (None): see `interfaces.Light.sample`."""
+        k = self.k if row is None or self.count == 1 else self.k.take(row)
+        wi, distance, E, pdf = self.light.sample(k, p, u2)
+        return wi, distance, E, pdf if self.is_met else np.full_like(pdf, np.inf)
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,9 +71,10 @@ class Lights:
         kinds = dict.fromkeys(type(lamp) for lamp in lamps)
         lamps = [lamp for kind in kinds for lamp in lamps if type(lamp) is kind]
         groups = []
+        are_met = sum(lamp.has_extent() for lamp in lamps) <= MAX_HITTABLE
         for kind in kinds:
             rows = [lamp.row(frame) for lamp in lamps if type(lamp) is kind]
-            groups.append(Group(kind, columns(rows), sum(g.count for g in groups), len(rows)))
+            groups.append(Group(kind, columns(rows), sum(g.count for g in groups), len(rows), are_met))
         split = emitters.parallelograms
         for kind, patches in ((ParallelogramLight, slice(0, split)), (TriangleLight, slice(split, emitters.count))):
             if patches.stop > patches.start:
@@ -76,7 +87,7 @@ class Lights:
             len(lamps),
             _choice(lamps, emitters, frame, radius) if has_choice else OnlyLight(),
             tuple(lamp for lamp in hittable if lamp.is_visible),
-            hittable if len(hittable) <= MAX_HITTABLE else (),
+            hittable if are_met else (),
         )
 
     @property
@@ -87,16 +98,14 @@ class Lights:
     def sample(self, index, p, u2):
         """A point on light `index` (N,), or on the only light (None): see `interfaces.Light.sample`."""
         if len(self.groups) == 1:
-            group = self.groups[0]
-            return group.light.sample(group.k if index is None or group.count == 1 else group.k.take(index), p, u2)
+            return self.groups[0].sample(index, p, u2)
         wi, E = np.empty_like(p), np.empty_like(p)
         distance, pdf = np.empty_like(p[0]), np.empty_like(p[0])
         for group in self.groups:
             lanes = np.nonzero((index >= group.first) & (index < group.first + group.count))[0]
             if not lanes.size:
                 continue
-            k = group.k.take(index.take(lanes) - group.first)
-            sampled = group.light.sample(k, p.take(lanes, axis=1), u2.take(lanes, axis=1))
+            sampled = group.sample(index.take(lanes) - group.first, p.take(lanes, axis=1), u2.take(lanes, axis=1))
             wi[:, lanes], distance[lanes], E[:, lanes], pdf[lanes] = sampled
         return wi, distance, E, pdf
 
