@@ -4,13 +4,12 @@ from dataclasses import dataclass
 
 from . import needs
 from .arrays import Columns, columns
-from .integrators.path import one_of_the_lobes, only_lobe
 from .registry import FILTERS, INTEGRATORS, PASSES, SAMPLERS
 from .scene.settings import Settings
 from .wavefront.direct import add_direct_light
 from .wavefront.emission import add_emission
 from .wavefront.escape import add_background, add_light_hits
-from .wavefront.numbers import Numbers
+from .wavefront.numbers import Numbers, one_of_the_lobes, only_lobe
 from .world.compile import CompiledWorld, compile_world
 from .world.interaction import flat_normals, smooth_normals
 

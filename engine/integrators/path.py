@@ -45,13 +45,3 @@ def survive(plan, rays, beta, valid):
     q = np.sqrt(np.minimum(brightest, 1))
     alive &= plan.numbers.independent(rays, Dimension.ROULETTE) < q
     return alive, q
-
-
-def only_lobe(plan, rays):
-    """There is one lobe: no choice, and no random number."""
-    return
-
-
-def one_of_the_lobes(plan, rays):
-    """The number u1 (N,) that chooses a lobe of each surface."""
-    return plan.numbers.one(rays, Dimension.LOBE)

@@ -10,11 +10,9 @@ class Film:
     """
 
     def __init__(self, pixels, passes):
-        self.pixels = pixels
         self.passes = passes
         self.sums = {p.key: np.zeros((len(p.channels), pixels)) for p in passes}
         self.bad_samples = 0
-        self._samples = 0
 
     def open(self, samples, window):
         """Start `samples` more samples of the pixels `window`, a slice; further batches open the other pixels."""

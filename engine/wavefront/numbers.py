@@ -39,3 +39,13 @@ class Numbers:
     def two(self, rays, dimension):
         """u2 (2, N) for each ray at its depth."""
         return self.sampler.two(rays.key, rays.sample, dimension + _PER_BOUNCE * rays.depth, self.samples)
+
+
+def only_lobe(plan, rays):
+    """There is one lobe: no choice, and no random number."""
+    return
+
+
+def one_of_the_lobes(plan, rays):
+    """The number u1 (N,) that chooses a lobe of each surface."""
+    return plan.numbers.one(rays, Dimension.LOBE)
