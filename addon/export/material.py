@@ -4,6 +4,7 @@ import numpy as np
 
 from ...engine import Material
 from .closure import Closure, diffuse, merged, scaled_lobe
+from .findings import Findings
 from .nodes import Reader, has_nodes, output_node
 from .principled import principled_lobes
 from .shaders import surface_of
@@ -31,6 +32,17 @@ def export_material(material, findings):
         if reader.is_linked(output, identifier):
             findings.note(note, owner)
     return _checked(material.name, owner, surface_of(output, owner, findings), findings)
+
+
+def is_volume_only(material):
+    """Whether a material (or None) has an inside but no surface, so that nothing is left without the volume."""
+    if material is None or not has_nodes(material):
+        return False
+    output = output_node(material.node_tree)
+    if output is None:
+        return False
+    reader = Reader(f"material '{material.name}'", Findings())
+    return reader.is_linked(output, "Volume") and not reader.is_linked(output, "Surface")
 
 
 def _checked(name, owner, closure, findings):

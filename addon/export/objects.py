@@ -7,7 +7,7 @@ import numpy as np
 
 from ...engine import GlanzError, Object, SceneError
 from .light import export_light
-from .material import export_material
+from .material import export_material, is_volume_only
 from .mesh import export_mesh
 
 POLL_EVERY = 256
@@ -34,107 +34,55 @@ class _Placed:
     materials: tuple
 
 
-class ObjectExport:
-    """Goes once through the instances of `depsgraph`; afterwards `objects` and `lights` are engine values.
+def export_objects(depsgraph, findings, material_override=None, check=lambda: None):
+    """(objects, lights): engine values for every instance of `depsgraph`, tuples.
 
     Meshes are shared by data-block, so ten thousand instances cost one mesh. `material_override`, if any, replaces all
     materials. `check` is called now and then and may raise to stop. Raises SceneError naming the object that failed.
     """
-
-    def __init__(self, depsgraph, findings, material_override=None, check=lambda: None):
-        self.findings = findings
-        self.override = material_override
-        self.lights = []
-        self._depsgraph = depsgraph
-        self._meshes = {}
-        self._materials = {}
-        self._parts = {}
-        placed, matrices = [], []
-        for i, instance in enumerate(depsgraph.object_instances):
-            if i % POLL_EVERY == 0:
-                check()
-            try:
-                part = self._part_of(instance)
-            except GlanzError:
-                raise
-            except Exception as error:
-                raise SceneError(f"object '{instance.object.name}' cannot be exported: {type(error).__name__}: {error}") from error
-            if part:
+    parts = _Parts(findings, material_override)
+    placed, matrices, lights = [], [], []
+    for i, instance in enumerate(depsgraph.object_instances):
+        if i % POLL_EVERY == 0:
+            check()
+        # Instances are valid for this round of the loop only: everything is copied.
+        ob, matrix = instance.object, np.array(instance.matrix_world, np.float64)
+        try:
+            if ob.type == "LIGHT":
+                lights.append(_placed_light(ob, matrix, findings))
+            elif instance.show_self and (part := parts.of(ob)):
                 placed.append(part)
-                matrices.append(np.array(instance.matrix_world, np.float64))
-        self.objects = self._placed_objects(placed, matrices)
+                matrices.append(matrix)
+        except GlanzError:
+            raise
+        except Exception as error:
+            raise SceneError(f"object '{ob.name}' cannot be exported: {type(error).__name__}: {error}") from error
+    return _placed_objects(placed, matrices, findings), tuple(light for light in lights if light is not None)
 
-    def _part_of(self, instance):
-        """The `_Placed` mesh of an instance, or None; lights go to `lights` at once."""
-        ob = instance.object
-        # Text, curves and metaballs come twice: as themselves, and as an instance whose data is a mesh.
-        if isinstance(ob.data, bpy.types.Mesh):
-            return self._mesh_part(ob) if instance.show_self else None
-        if ob.type == "LIGHT":
-            self._add_light(ob, np.array(instance.matrix_world, np.float64))
-        elif ob.type in _NOT_RENDERED:
-            self.findings.note(_NOT_RENDERED[ob.type], f"object '{ob.name}'")
+
+def _placed_light(ob, matrix, findings):
+    if not is_placed(matrix[None])[0]:
+        findings.note("the transform is not finite, so it is left out", f"light '{ob.name}'")
         return None
+    return export_light(ob, matrix, findings)
 
-    def _add_light(self, ob, matrix):
-        if not is_placed(matrix[None])[0]:
-            self.findings.note("the transform is not finite, so it is left out", f"light '{ob.name}'")
-            return
-        light = export_light(ob, matrix, self.findings)
-        if light is not None:
-            self.lights.append(light)
 
-    def _mesh_part(self, ob):
-        # Instances are temporary copies: only the original and the data tell which object it is.
-        key = (ob.original.as_pointer(), ob.data.as_pointer())
-        if key not in self._parts:
-            self._note_ignored(ob)
-            mesh = self._mesh(ob.data, ob.name)
-            self._parts[key] = _Placed(ob.name, mesh, self._materials_of(ob)) if mesh.triangles.shape[1] else None
-        return self._parts[key]
-
-    def _mesh(self, data, name):
-        key = data.as_pointer()
-        if key not in self._meshes:
-            self._meshes[key] = export_mesh(data, data.name or name)
-        return self._meshes[key]
-
-    def _materials_of(self, ob):
-        # Slots, not the mesh's own list: they know which materials are linked to the object instead.
-        materials = [slot.material for slot in ob.material_slots] or [None]
-        return tuple(self._material(self.override or material) for material in materials)
-
-    def _material(self, material):
-        key = material.as_pointer() if material else None
-        if key not in self._materials:
-            self._materials[key] = export_material(material, self.findings)
-        return self._materials[key]
-
-    def _note_ignored(self, ob):
-        name = f"object '{ob.name}'"
-        if not all(getattr(ob, flag) for flag in _RAY_VISIBILITY):
-            self.findings.note("ray visibility is ignored, everything sees the object", name)
-        if ob.is_holdout or ob.is_shadow_catcher:
-            self.findings.note("holdouts and shadow catchers are rendered as ordinary objects", name)
-        for system in ob.particle_systems:
-            if system.settings.type == "HAIR" and system.settings.render_type == "PATH":
-                self.findings.note("hair particles are not rendered", name)
-
-    def _placed_objects(self, placed, matrices):
-        if not placed:
-            return ()
-        matrices = np.stack(matrices)
-        finite = is_placed(matrices)
-        visible = finite & has_faces(matrices)
-        for part, is_finite, is_visible in zip(placed, finite, visible, strict=True):
-            if not is_visible:
-                cause = "the scale leaves no surface" if is_finite else "the transform is not finite"
-                self.findings.note(f"{cause}, so it is left out", f"object '{part.name}'")
-        return tuple(
-            Object(name=part.name, mesh=part.mesh, world_from_object=matrix, materials=part.materials)
-            for part, matrix, is_visible in zip(placed, matrices, visible, strict=True)
-            if is_visible
-        )
+def _placed_objects(parts, matrices, findings):
+    """The objects whose matrices leave something to see."""
+    if not parts:
+        return ()
+    matrices = np.stack(matrices)
+    finite = is_placed(matrices)
+    visible = finite & has_faces(matrices)
+    for part, is_finite, is_visible in zip(parts, finite, visible, strict=True):
+        if not is_visible:
+            cause = "the scale leaves no surface" if is_finite else "the transform is not finite"
+            findings.note(f"{cause}, so it is left out", f"object '{part.name}'")
+    return tuple(
+        Object(name=part.name, mesh=part.mesh, world_from_object=matrix, materials=part.materials)
+        for part, matrix, is_visible in zip(parts, matrices, visible, strict=True)
+        if is_visible
+    )
 
 
 def is_placed(matrices):
@@ -147,3 +95,59 @@ def has_faces(matrices):
     with np.errstate(all="ignore"):
         x, y, z = np.moveaxis(matrices[:, :3, :3], 2, 0)
         return np.any([np.cross(a, b).any(axis=1) for a, b in ((x, y), (y, z), (z, x))], axis=0)
+
+
+class _Parts:
+    """Meshes and materials, exported when first met."""
+
+    def __init__(self, findings, material_override):
+        self._findings = findings
+        self._override = material_override
+        self._parts, self._meshes, self._materials = {}, {}, {}
+
+    def of(self, ob):
+        """The `_Placed` mesh of an object, or None where there is nothing to render."""
+        # Text, curves and metaballs come twice: as themselves, and as an instance whose data is a mesh.
+        if not isinstance(ob.data, bpy.types.Mesh):
+            if ob.type in _NOT_RENDERED:
+                self._findings.note(_NOT_RENDERED[ob.type], f"object '{ob.name}'")
+            return None
+        # Instances are temporary copies: only the original and the data tell which object it is.
+        key = (ob.original.as_pointer(), ob.data.as_pointer())
+        if key not in self._parts:
+            self._parts[key] = self._new(ob)
+        return self._parts[key]
+
+    def _new(self, ob):
+        # Slots, not the mesh's own list: they know which materials are linked to the object instead.
+        materials = [self._override or slot.material for slot in ob.material_slots] or [self._override]
+        mesh = self._mesh(ob.data)
+        if not mesh.triangles.shape[1]:
+            return None
+        if all(is_volume_only(material) for material in materials):
+            self._findings.note(_NOT_RENDERED["VOLUME"], f"object '{ob.name}'")
+            return None
+        self._note_ignored(ob)
+        return _Placed(ob.name, mesh, tuple(self._material(material) for material in materials))
+
+    def _mesh(self, data):
+        key = data.as_pointer()
+        if key not in self._meshes:
+            self._meshes[key] = export_mesh(data, data.name)
+        return self._meshes[key]
+
+    def _material(self, material):
+        key = material.as_pointer() if material else None
+        if key not in self._materials:
+            self._materials[key] = export_material(material, self._findings)
+        return self._materials[key]
+
+    def _note_ignored(self, ob):
+        name = f"object '{ob.name}'"
+        if not all(getattr(ob, flag) for flag in _RAY_VISIBILITY):
+            self._findings.note("ray visibility is ignored, everything sees the object", name)
+        if ob.is_holdout or ob.is_shadow_catcher:
+            self._findings.note("holdouts and shadow catchers are rendered as ordinary objects", name)
+        for system in ob.particle_systems:
+            if system.settings.type == "HAIR" and system.settings.render_type == "PATH":
+                self._findings.note("hair particles are not rendered", name)

@@ -3,7 +3,7 @@
 from ...engine import Scene
 from .camera import export_camera
 from .findings import Findings
-from .objects import ObjectExport
+from .objects import export_objects
 from .world import export_world
 
 
@@ -23,13 +23,13 @@ def export_scene(depsgraph, settings, camera=None, matrix=None, shift_x=None, ch
     camera = export_camera(camera or scene.camera, scene.render, settings.width, settings.height, findings, matrix, shift_x)
     _note_ignored(scene, findings)
     override = _evaluated(view_layer.material_override, depsgraph)
-    placed = ObjectExport(depsgraph, findings, override, check)
+    objects, lights = export_objects(depsgraph, findings, override, check)
     world = _evaluated(getattr(view_layer, "world_override", None) or scene.world, depsgraph)
     result = Scene(
         name=scene.name,
         camera=camera,
-        objects=placed.objects,
-        lights=tuple(placed.lights),
+        objects=objects,
+        lights=lights,
         world=export_world(world, findings),
     )
     return result, findings.lines()

@@ -67,6 +67,6 @@ def test_a_frame_that_has_no_room_is_refused_before_blender_is_asked(monkeypatch
 
     monkeypatch.setattr("glanz.addon.results.np.empty", refuse)
     engine = Engine()
-    with pytest.raises(MemoryError, match="16384x16384 px with 5 channels take 10.0 GB"):
+    with pytest.raises(MemoryError, match=r"16384x16384 px with 5 channels take 10.0 GB"):
         make_room(engine, Settings(width=16384, height=16384, passes=("Combined", "Depth")), "Layer")
     assert engine.ended == []

@@ -175,6 +175,18 @@ def test_what_cannot_be_rendered_is_named():
     assert set(warnings) == {"hair curves are not rendered: object 'Fur'", "volumes are not rendered: object 'Smoke'"}
 
 
+def test_an_object_that_is_only_a_volume_does_not_block_the_view():
+    material = blender.new_material("Fog", "ShaderNodeVolumePrincipled")
+    tree = material.node_tree
+    tree.links.new(tree.links[0].from_socket, tree.get_output_node("CYCLES").inputs["Volume"])
+    tree.links.remove(tree.links[0])
+    assert [link.to_socket.identifier for link in tree.links] == ["Volume"]
+    blender.add_tetrahedron("Domain").data.materials.append(material)
+    scene, warnings = blender.export()
+    assert scene.objects == ()
+    assert warnings == ("volumes are not rendered: object 'Domain'",)
+
+
 def test_ignored_flags_are_named():
     ob = blender.add_plane()
     ob.visible_shadow = False
