@@ -17,6 +17,9 @@ VERSION = "0.1.0"
 
 def run():
     """Entry point of the program: never returns."""
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:  # closed by whoever started the program
+            setattr(sys, name, open(os.devnull, "w"))
     stopper = Stopper()
     stopper.install()
     status = main(stopper=stopper)
@@ -66,8 +69,10 @@ def _execute(arguments, stopper):
         return _fail(error)
     except MemoryError as error:
         return _fail(f"out of memory {error}")
-    except BrokenPipeError:
+    except BrokenPipeError:  # nobody listens any more
         return 1
+    except OSError as error:
+        return _fail(error)
     except Exception as error:
         traceback.print_exc()
         return _fail(f"unexpected {type(error).__name__}: {error}; this is a bug in Glanz, please report it with the lines above")

@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+import os
 import subprocess
 import sys
 
@@ -179,3 +180,20 @@ def test_the_default_settings_survive_the_command_line(tmp_path, monkeypatch, ca
     settings = json.loads(capsys.readouterr().out)["settings"]
     wanted = dataclasses.asdict(Settings(width=2, height=2))
     assert settings == json.loads(json.dumps(wanted))
+
+
+@pytest.mark.parametrize(("redirection", "status"), [("> /dev/full", 1), (">&-", 0)])
+def test_an_answer_that_nobody_gets_is_no_traceback(scene_file, redirection, status):
+    command = f"{sys.executable} -m glanz.cli info {scene_file} {redirection}"
+    result = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False)
+    assert result.returncode == status
+    assert "Traceback" not in result.stderr
+
+
+def test_an_answer_into_a_closed_pipe_is_no_traceback(scene_file):
+    reading, writing = os.pipe()
+    os.close(reading)
+    command = [sys.executable, "-m", "glanz.cli", "info", scene_file]
+    result = subprocess.run(command, stdout=writing, stderr=subprocess.PIPE, text=True, check=False)
+    os.close(writing)
+    assert (result.returncode, result.stderr) == (1, "")
