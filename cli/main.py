@@ -19,7 +19,7 @@ def run():
     """Entry point of the program: never returns."""
     for name in ("stdout", "stderr"):
         if getattr(sys, name) is None:  # closed by whoever started the program
-            setattr(sys, name, open(os.devnull, "w"))
+            setattr(sys, name, open(os.devnull, "w"))  # noqa: SIM115 - stays open to the end
     stopper = Stopper()
     stopper.install()
     status = main(stopper=stopper)

@@ -105,7 +105,8 @@ def test_ci_tests_on_python_3_13_too_and_fails_with_it(project):
 
 def test_ci_finds_a_python_3_13_behind_a_shim_of_pyenv(project):
     script(project / "bin" / "python3.13", "exit 127")
-    script(project / "bin" / "pyenv", 'if [ "$1" = versions ]; then printf "3.11.7\\n3.13.0\\n3.13.2\\n"; else echo "/pyenv/$PYENV_VERSION"; fi')
+    versions = 'printf "3.11.7\\n3.13.0\\n3.13.2\\n"'
+    script(project / "bin" / "pyenv", f'if [ "$1" = versions ]; then {versions}; else echo "/pyenv/$PYENV_VERSION"; fi')
     assert "made with /pyenv/3.13.2" in ci(project, "exit 0").stdout
 
 
