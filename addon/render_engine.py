@@ -40,9 +40,9 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
 
     def _render(self, depsgraph):
         backend.load_or_raise()
-        from ..engine import render
+        from ..engine import metadata, render
         from .export import export_scene
-        from .results import make_room, write_tile
+        from .results import make_room, stamp, write_tile
         from .settings import settings_of
 
         settings = settings_of(depsgraph.scene_eval, depsgraph.view_layer_eval, width=self.resolution_x, height=self.resolution_y)
@@ -60,6 +60,7 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
         )
         warnings = Warnings(self)
         warnings.show(notes)
+        stamp(self, metadata(scene, settings))
         self.update_stats("", "Preparing the scene")
         status = Status(self, settings.samples)
         # Closing the generator joins its threads, so none is left when Blender goes on, whatever happens here.

@@ -66,3 +66,10 @@ def write_tile(engine, tile, region, layer, view=""):
             values = tile.passes.get(render_pass.name)
             if values is not None:
                 render_pass.rect.foreach_set(flat_pixels(values))
+
+
+def stamp(engine, facts):
+    """Let saved files say how the picture was made; `facts` is {str: str}."""
+    result = engine.get_result()
+    for name, value in facts.items():
+        result.stamp_data_add_field(name, value)

@@ -17,7 +17,7 @@ from .lights.point import PointLight
 from .lights.spot import SpotLight
 from .lights.sun import SunLight
 from .registry import FILTERS, INTEGRATORS, PASSES, SAMPLERS
-from .rendering import Image, Progress, Tile, render, render_image
+from .rendering import Image, Progress, Tile, metadata, render, render_image
 from .requirements import Requirements
 from .scene import Material, Mesh, Object, Scene, Settings, World
 

@@ -2,6 +2,7 @@
 
 import os
 import threading
+import time
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from dataclasses import dataclass, field
 
@@ -18,22 +19,29 @@ from .wavefront.loop import trace
 LANES = 2**16
 """Paths in a batch: enough to hide Python, few enough for the cache."""
 POLL_SECONDS = 0.1
+SHOW_SECONDS = 0.5
+"""How often a tile that takes long is shown unfinished; what a user who cancels may lose of it."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Tile:
-    """A finished rectangle: x, y [px] from the top left of the full frame; passes {name: (height, width, channels) float32}."""
+    """A rectangle of the picture: x, y [px] from the top left of the full frame.
+
+    passes    {name: (height, width, channels) float32}, row 0 at the top
+    is_final  all samples are in; else it shows those so far, and comes again
+    """
 
     x: int
     y: int
     width: int
     height: int
     passes: dict
+    is_final: bool = True
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Progress:
-    """What has happened since the last one: the share `done` in [0, 1], tiles that finished, warnings that came up."""
+    """What has happened since the last one: the share `done` in [0, 1], tiles to show, warnings that came up."""
 
     done: float
     tiles: tuple = ()
@@ -54,8 +62,9 @@ class Image:
 def render(scene, settings):
     """Render, yielding `Progress` at least ten times a second until everything is done.
 
-    To cancel is to stop iterating: closing the generator stops the threads within a batch's bounce. The picture
-    depends neither on threads, tiles nor border. Raises SceneError for what cannot be rendered.
+    Tiles that take long are shown unfinished now and then. To cancel is to stop iterating: closing the generator stops
+    the threads within a batch's bounce. The picture depends neither on threads, tiles nor border. Raises SceneError
+    for what cannot be rendered.
     """
     scene, warnings = validate(scene, settings)
     yield Progress(0.0, warnings=warnings)
@@ -75,7 +84,9 @@ def render_plan(plan):
             pending = {pool.submit(_render_tile, plan, tile, work) for tile in tiles}
             while pending:
                 finished, pending = wait(pending, POLL_SECONDS, FIRST_COMPLETED)
-                yield Progress(work.done, tuple(future.result() for future in finished), work.take_warnings())
+                # First the unfinished: a tile among them may be finished by now.
+                tiles = (*work.take_unfinished(), *(future.result() for future in finished))
+                yield Progress(work.done, tiles, work.take_warnings())
         finally:
             work.cancelled.set()
             pool.shutdown(wait=True, cancel_futures=True)
@@ -122,10 +133,20 @@ class _Work:
         self._paths = paths
         self._finished = 0
         self._bad_samples = 0
+        self._unfinished = []
 
     def finish(self, paths):
         with self._lock:
             self._finished += paths
+
+    def show(self, tile):
+        with self._lock:
+            self._unfinished.append(tile)
+
+    def take_unfinished(self):
+        with self._lock:
+            tiles, self._unfinished = self._unfinished, []
+        return tiles
 
     def count_bad(self, samples):
         with self._lock:
@@ -155,6 +176,7 @@ def _render_tile(plan, tile, work):
     film = Film(width * height, plan.passes)
     py, px = np.divmod(np.arange(width * height), width)
     px, py = px + x, py + y
+    shown = time.monotonic()
     for window, first, count in _batches(width * height, plan.settings.samples):
         film.open(count, window)
         rays = camera_rays(plan, px[window], py[window], first, count)
@@ -162,12 +184,19 @@ def _render_tile(plan, tile, work):
             return None
         film.close(is_first=first == 0)
         work.finish(count * (window.stop - window.start))
+        if time.monotonic() - shown > SHOW_SECONDS:
+            work.show(_tile(tile, film, is_final=False))
+            shown = time.monotonic()
     work.count_bad(film.bad_samples)
+    return _tile(tile, film, is_final=True)
+
+
+def _tile(place, film, is_final):
+    x, y, width, height = place
     passes = {
-        name: np.ascontiguousarray(values.reshape(-1, height, width).transpose(1, 2, 0))
-        for name, values in film.result(plan.settings.samples).items()
+        name: np.ascontiguousarray(values.reshape(-1, height, width).transpose(1, 2, 0)) for name, values in film.result().items()
     }
-    return Tile(x, y, width, height, passes)
+    return Tile(x, y, width, height, passes, is_final)
 
 
 def _batches(pixels, samples):

@@ -12,6 +12,7 @@ class Film:
     def __init__(self, pixels, passes):
         self.passes = passes
         self.sums = {p.key: np.zeros((len(p.channels), pixels)) for p in passes}
+        self.samples = np.zeros(pixels, np.int64)
         self.bad_samples = 0
 
     def open(self, samples, window):
@@ -46,7 +47,9 @@ class Film:
                     total += samples[:, i]
             elif is_first:
                 total += samples[:, 0]
+        self.samples[self._window] += self._count
 
-    def result(self, samples):
-        """{pass: (C, P) float32} after `samples` samples of every pixel."""
-        return {p.key: (self.sums[p.key] / (samples if p.is_average else 1)).astype(np.float32) for p in self.passes}
+    def result(self):
+        """{pass: (C, P) float32} of the samples gathered so far; 0, alpha too, for pixels without any."""
+        count = np.maximum(self.samples, 1)
+        return {p.key: (self.sums[p.key] / (count if p.is_average else 1)).astype(np.float32) for p in self.passes}

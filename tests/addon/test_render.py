@@ -39,6 +39,12 @@ def test_passes_are_those_of_the_view_layer(furnace, tmp_path):
     assert "ViewLayer.Normal" not in blender.read_exr(blender.render(tmp_path / "b.exr"))
 
 
+def test_the_file_says_how_it_was_made(furnace, tmp_path):
+    bpy.context.scene.glanz.samples = 3
+    header = blender.header(blender.render(tmp_path / "a.exr"))
+    assert (header["glanz.samples"], header["glanz.version"]) == ("3", engine.__version__)
+
+
 def test_row_0_is_at_the_top_and_column_0_on_the_left(tmp_path):
     blender.add_camera()
     lamp = blender.new_material("Lamp", "ShaderNodeEmission", Color=(1, 1, 1, 1), Strength=1)
