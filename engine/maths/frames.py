@@ -9,7 +9,8 @@ def to_world(n, local):
     R = h h^T / (1 + |n_z|) - 1 with h = n + sign(n_z) z is orthogonal, maps z to n, and divides by nothing small. The
     azimuth is arbitrary (but for n = z), as for every frame without a tangent.
     """
-    sign = np.copysign(1, n[2]).astype(n.dtype, copy=False)
+    # Plus 0 makes -0 a 0, or the frame of a vertical surface would hang on its winding.
+    sign = np.copysign(1, n[2] + 0).astype(n.dtype, copy=False)
     h = np.array(np.broadcast_to(n, np.broadcast_shapes(n.shape, local.shape)))
     h[2] += sign
     x, y, z = local[0], local[1], local[2] * sign
