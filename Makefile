@@ -17,6 +17,10 @@ EXTRAS := cli,test,bench,blender
 endif
 ifneq ($(filter-out none,$(BPY)),)
 BLENDER := bpy==$(BPY)
+# Blender brings NumPy 1.26 up to 5.0; the wheels of 4.x do not say so.
+ifneq ($(filter 4.%,$(BPY)),)
+BLENDER += 'numpy<2'
+endif
 endif
 
 READY := $(VENV)/.ready-$(VERSION)

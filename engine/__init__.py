@@ -48,6 +48,7 @@ __all__ = [
     "SunLight",
     "Tile",
     "World",
+    "metadata",
     "read_scene",
     "render",
     "render_image",

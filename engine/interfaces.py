@@ -61,7 +61,8 @@ class Light(Protocol):
         """What the light may weigh at a place in render space: power (r, g, b) / (nearness * distance^2 + radius2).
 
         power is the radiant intensity into the brightest direction, distance is taken from `centre`; a light that is
-        the same everywhere has nearness 0 and radius2 1. Returns {centre, power, nearness, radius2}.
+        the same everywhere has nearness 0 and radius2 1. It shines where the cosine between `axis` and the way from its
+        centre is at least `cos_edge`. Returns {centre, power, nearness, radius2, axis, cos_edge}.
         """
 
     def has_extent(self):

@@ -85,6 +85,8 @@ class AreaLight:
             "centre": tuple(frame.points(np.asarray(self.world_from_light, np.float64)[:3, 3:4])[:, 0]),
             "power": tuple(self.area() * frame.scale**2 * c for c in self.radiance),
             "nearness": 1.0,
+            "axis": tuple(-np.cross(x, y)),
+            "cos_edge": 0.0,
             "radius2": 0.25 * float(x @ x + y @ y) * frame.scale**2,
         }
 

@@ -69,7 +69,9 @@ class SpotLight:
             raise SceneError(f"light '{self.name}': angle {self.angle} rad, blend {self.blend}; allowed: 0 to pi, 0 to 1")
 
     def weight(self, frame):
-        return bulbs.weight(frame, self)
+        z = np.asarray(self.world_from_light, np.float64)[:3, 2]
+        axis = -z / (np.linalg.norm(z) or 1.0)
+        return bulbs.weight(frame, self) | {"axis": tuple(axis), "cos_edge": math.cos(0.5 * self.angle)}
 
     def has_extent(self):
         return self.radius > 0

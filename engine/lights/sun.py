@@ -55,7 +55,8 @@ class SunLight:
             raise SceneError(f"light '{self.name}': angle is {self.angle} rad, allowed: 0 to pi")
 
     def weight(self, frame):
-        return {"centre": (0.0, 0.0, 0.0), "power": self.irradiance, "nearness": 0.0, "radius2": 1.0}
+        nowhere = (0.0, 0.0, 0.0)
+        return {"centre": nowhere, "power": self.irradiance, "nearness": 0.0, "radius2": 1.0, "axis": nowhere, "cos_edge": -1.0}
 
     def has_extent(self):
         return self.angle > 0

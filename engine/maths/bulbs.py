@@ -34,7 +34,14 @@ def check(light):
 def weight(frame, light):
     """See `interfaces.Light.weight`."""
     placed = row(frame, light)
-    return {"centre": placed["position"], "power": placed["intensity"], "nearness": 1.0, "radius2": placed["radius"] ** 2}
+    return {
+        "centre": placed["position"],
+        "power": placed["intensity"],
+        "nearness": 1.0,
+        "radius2": placed["radius"] ** 2,
+        "axis": (0.0, 0.0, 0.0),
+        "cos_edge": -1.0,
+    }
 
 
 def power(light):

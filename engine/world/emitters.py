@@ -89,6 +89,8 @@ class Emitters:
                 "centre": tuple(0.5 * (low + high)),
                 "power": tuple((k.radiance[:, part].astype(np.float64) * k.area[part]).sum(axis=1)),
                 "nearness": 1.0,
+                "axis": (0.0, 0.0, 0.0),
+                "cos_edge": -1.0,
                 "radius2": 0.25 * float(((high - low) ** 2).sum()),
                 "count": part.stop - part.start,
             }

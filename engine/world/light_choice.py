@@ -12,6 +12,9 @@ from ..maths.vectors import dot
 MOST_CLUSTERS = 32
 """Up to so many clusters of lights are weighed against each other at every point; each costs a few nanoseconds."""
 
+_DARK = 2.0**-8
+"""What a light weighs where it should not shine at all, compared to where it does."""
+
 
 class OnlyLight:
     """There is one light: no choice, and no number spent."""
@@ -67,8 +70,7 @@ class ByPlace:
     by_power  the choice that ignores the place, over the same lights
     cluster   (M,) the cluster of each light, ascending from 0
     first     (C,) where each cluster begins in the cdf; total (C,) its share of it
-    table     the clusters in render space: centre (3, C, 1); power, nearness, radius2 (C, 1); a cluster weighs
-              power / (nearness * distance^2 + radius2)
+    table     what the clusters weigh, see `interfaces.Light.weight`: (C, 1), vectors (3, C, 1)
     """
 
     by_power: ByPower
@@ -79,7 +81,7 @@ class ByPlace:
 
     @classmethod
     def of(cls, by_power, clusters):
-        """From {centre, power, nearness, radius2, count} of each cluster, in the order of their lights; power a number."""
+        """From the weight of each cluster, power a number, and its `count` of lights; in the order of the lights."""
         cluster = np.repeat(np.arange(len(clusters)), [c["count"] for c in clusters])
         edges = np.append(np.nonzero(np.diff(cluster, prepend=-1))[0], cluster.size)
         cdf = np.append(0.0, by_power.cdf)[edges]
@@ -119,5 +121,11 @@ class ByPlace:
 
     def _weights(self, p):
         k = self.table
-        towards = k.centre - p[:, None]
-        return k.power / (k.nearness * dot(towards, towards) + (k.radius2 + np.finfo(np.float32).tiny))
+        away = p[:, None] - k.centre
+        distance2 = dot(away, away)
+        weights = k.power / (k.nearness * distance2 + (k.radius2 + np.finfo(np.float32).tiny))
+        # cos >= cos_edge with both squared, signs kept. Not 0 in the dark: a light may leak over its edge, and all may be dark.
+        along = dot(away, k.axis)
+        is_lit = along * np.abs(along) >= k.cos_edge * np.abs(k.cos_edge) * distance2
+        weights *= np.float32(_DARK) + np.float32(1 - _DARK) * is_lit
+        return weights

@@ -11,6 +11,7 @@ import pytest
 
 from glanz.engine import AreaLight, Lambert, Material, PointLight, SpotLight, SunLight
 from glanz.engine.wavefront import direct
+from glanz.engine.world.lights import Group
 from glanz.tests import helpers as h
 from glanz.tests.polygons import polygon_irradiance
 
@@ -155,8 +156,6 @@ def test_light_does_not_depend_on_how_many_it_is_divided_among(count, kind):
 
 def test_counting_catches_shadow_rays_that_share_with_nobody(monkeypatch):
     """The mutant weighs shadow rays as if scattered rays looked for the lights, beyond the 16 for which they do."""
-    from glanz.engine.world.lights import Group
-
     lights = [AreaLight(name=f"{i}", world_from_light=OVERHEAD, radiance=(1 / 17,) * 3) for i in range(17)]
     scene = h.receiver(lights, distance=0.5)
     monkeypatch.setattr(Group, "sample", lambda self, row, p, u2: self.light.sample(self.k.take(row), p, u2))

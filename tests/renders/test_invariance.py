@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from glanz.engine import Mesh, Object, PointLight, Scene, rendering
+from glanz.engine.wavefront import loop
 from glanz.engine.world.frame import Frame
 from glanz.tests import helpers as h
 from glanz.tests import scenes
@@ -46,8 +47,6 @@ def test_shifting_catches_a_world_that_is_not_centred_on_the_camera(reference, m
 
 def test_scaling_catches_an_offset_that_does_not_scale(reference, monkeypatch):
     """The mutant starts rays at a fixed distance from surfaces, in metres."""
-    from glanz.engine.wavefront import loop
-
     interact = loop.interact
 
     def fixed(triangles, shading_normals, d, hits):
