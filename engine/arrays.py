@@ -33,14 +33,17 @@ def columns(rows, dtype=np.float32):
 
 
 def frozen(array, dtype, shape, subject, name):
-    """`array` as a read-only C-contiguous array of `dtype`; raises ValueError unless its shape fits.
+    """`array` as a read-only C-contiguous array of `dtype`; raises ValueError unless shape and numbers fit.
 
     `shape` gives each axis its length, None for any. An array that already fits is not copied.
     """
     try:
-        result = np.ascontiguousarray(array, dtype=dtype)
+        with np.errstate(invalid="ignore"):
+            result = np.ascontiguousarray(array, dtype=dtype)
     except (TypeError, ValueError, OverflowError) as error:
         raise ValueError(f"{subject}: {name} is not an array of numbers ({error})") from None
+    if result.dtype.kind == "i" and not np.array_equal(result, array):
+        raise ValueError(f"{subject}: {name} are not all whole numbers below 2^{8 * result.itemsize - 1}")
     if len(result.shape) != len(shape) or any(want not in (None, have) for want, have in zip(shape, result.shape)):
         wanted = "(" + ", ".join("any" if n is None else str(n) for n in shape) + ")"
         raise ValueError(f"{subject}: {name} has shape {result.shape}, expected {wanted}")

@@ -34,7 +34,9 @@ class Film:
     def close(self, is_first):
         """Gather the batch into the pixels; `is_first` says that it begins with sample 0."""
         # Not a number or infinite: such a sample is lost, and must not take its pixel with it.
-        if not np.isfinite(self.radiance.sum(dtype=np.float64)):
+        with np.errstate(invalid="ignore"):
+            whole = self.radiance.sum(dtype=np.float64)
+        if not np.isfinite(whole):
             bad = ~np.isfinite(self.radiance).all(axis=0)
             self.bad_samples += np.count_nonzero(bad)
             self.radiance[:, bad] = 0
