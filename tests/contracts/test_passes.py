@@ -1,0 +1,119 @@
+"""What every pass promises (`interfaces.Pass`), checked for every class in the registry, and what each one holds."""
+
+import math
+
+import numpy as np
+import pytest
+
+from glanz.engine import PerspectiveCamera, render_image
+from glanz.engine.interfaces import Pass
+from glanz.engine.passes.depth import Depth
+from glanz.engine.registry import PASSES
+from glanz.tests import helpers as h
+from glanz.tests import scenes
+
+each = pytest.mark.parametrize("plugin", PASSES.values(), ids=lambda p: p.key)
+ALL = tuple(PASSES)
+
+
+def passes_of(scene, **changes):
+    return render_image(scene, h.settings(passes=ALL, **changes)).passes
+
+
+@each
+def test_a_pass_offers_the_interface(plugin):
+    assert isinstance(plugin, Pass)
+    assert PASSES[plugin.key] is plugin
+    assert plugin.channels in ("RGBA", "RGB", "Z", "XYZ")
+    assert not plugin.at_first_hit or isinstance(plugin.background, float)
+    assert plugin.__doc__.strip()
+
+
+@each
+def test_a_pass_renders_alone_as_beside_all_others(plugin):
+    """Bit for bit, with its channels, in float32, finite."""
+    alone = render_image(scenes.everything(), h.settings(passes=(plugin.key,))).passes
+    assert list(alone) == [plugin.key]
+    values = alone[plugin.key]
+    assert values.shape == (8, 8, len(plugin.channels))
+    assert values.dtype == np.float32
+    assert np.isfinite(values).all()
+    assert h.same_bits(values, passes_of(scenes.everything())[plugin.key])
+
+
+@each
+def test_a_pass_of_an_empty_scene_is_its_background(plugin):
+    values = passes_of(h.scene(world=0.25))[plugin.key]
+    if plugin.at_first_hit:
+        assert (values == np.float32(plugin.background)).all()
+    else:
+        assert (values == np.array((0.25, 0.25, 0.25, 1.0), np.float32)).all()
+
+
+def plane_at(angle, distance=2.0):
+    """A camera that looks straight along -z at a large plane, tilted by `angle` about x, `distance` away."""
+    camera = PerspectiveCamera.look_at((0.1, 0.2, distance), (0.1, 0.2, 0), up=(0, 1, 0), fov=math.radians(40))
+    turn = np.array([[1, 0, 0], [0, math.cos(angle), -math.sin(angle)], [0, math.sin(angle), math.cos(angle)]])
+    plane = h.thing(h.quad((0, 0, 0), (25 * distance, 0, 0), (0, 25 * distance, 0)), h.lambert(0.5), h.affine(turn, (0.1, 0.2, 0)))
+    return h.scene([plane], camera=camera), turn[:, 2]
+
+
+def test_depth_is_measured_along_the_axis_of_the_camera():
+    """Not along the ray: a plane across the view is equally deep everywhere; to 1e-6."""
+    scene, _ = plane_at(0.0, 7.5)
+    np.testing.assert_allclose(passes_of(scene)["Depth"], 7.5, rtol=1e-6)
+
+
+@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
+def test_depth_is_in_metres_at_every_scale(scale):
+    scene, _ = plane_at(0.0, 3.0 * scale)
+    np.testing.assert_allclose(passes_of(scene)["Depth"][4, 4], 3.0 * scale, rtol=1e-6)
+
+
+def test_depth_of_a_tilted_plane_is_that_of_one_sample():
+    """No mean over depths: each value is the depth of a point within its pixel."""
+    scene, normal = plane_at(0.5)
+    depth = passes_of(scene, samples=16)["Depth"][..., 0].astype(np.float64)
+    top = math.tan(math.radians(20))
+    edges = top - np.arange(9) / 8 * 2 * top  # of the rows, on the image plane at distance 1
+    exact = 2.0 * normal[2] / (normal[2] - edges * normal[1])
+    assert (depth <= np.maximum(exact[:-1], exact[1:])[:, None] + 1e-5).all()
+    assert (depth >= np.minimum(exact[:-1], exact[1:])[:, None] - 1e-5).all()
+
+
+def test_depth_catches_a_distance_along_the_ray(monkeypatch):
+    def along_the_ray(plan, surface):
+        return np.sqrt((surface.p**2).sum(axis=0))[None] / np.float32(plan.world.frame.scale)
+
+    monkeypatch.setattr(Depth, "values", staticmethod(along_the_ray))
+    scene, _ = plane_at(0.0, 7.5)
+    with pytest.raises(AssertionError):
+        np.testing.assert_allclose(passes_of(scene)["Depth"], 7.5, rtol=1e-6)
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.5, 2.5])
+def test_normals_are_those_of_the_world_on_the_side_of_the_viewer(angle):
+    scene, normal = plane_at(angle)
+    towards = normal * np.sign(normal[2])
+    np.testing.assert_allclose(passes_of(scene)["Normal"], np.broadcast_to(towards, (8, 8, 3)), atol=1e-6)
+
+
+def test_normals_of_a_smooth_sphere_are_its_directions():
+    camera = PerspectiveCamera.look_at((0, 0, 5), (0, 0, 0), up=(0, 1, 0), fov=math.radians(5))
+    normals = passes_of(h.scene([h.thing(h.icosphere(4, smooth=True))], camera=camera), samples=16)["Normal"]
+    middle = normals[3:5, 3:5].reshape(-1, 3).mean(axis=0)
+    np.testing.assert_allclose(middle, (0, 0, 1), atol=2e-3)
+    assert normals[0, :, 1].min() > 0.1 > -0.1 > normals[-1, :, 1].max()  # up is y
+    assert normals[:, -1, 0].min() > 0.1 > -0.1 > normals[:, 0, 0].max()  # right is x
+
+
+def test_normals_at_an_edge_are_averaged():
+    """A pixel half on a plane and half on nothing has half a normal: what an edge-preserving filter wants."""
+    camera = PerspectiveCamera.look_at((0, 0, 5), (0, 0, 0), up=(0, 1, 0))
+    half = h.thing(h.quad((-5, 0, 0), (10, 0, 0), (0, 10, 0)), h.lambert(0.5))
+    normal = passes_of(h.scene([half], camera=camera), width=1, height=1, samples=64)["Normal"][0, 0]
+    assert normal[2] == pytest.approx(0.5, abs=0.02)
+
+
+def test_the_picture_is_opaque():
+    assert (passes_of(scenes.everything())["Combined"][..., 3] == 1).all()

@@ -1,0 +1,150 @@
+"""What cannot be rendered is refused or left out, and always named (faults J13-J18)."""
+
+import math
+
+import numpy as np
+import pytest
+
+from glanz.engine import (
+    AreaLight,
+    Lambert,
+    Material,
+    PerspectiveCamera,
+    Phong,
+    PointLight,
+    SceneError,
+    Settings,
+    SpotLight,
+    SunLight,
+    render,
+    render_image,
+)
+from glanz.engine.scene.validate import validate
+from glanz.tests import helpers as h
+
+SETTINGS = h.settings(samples=1, max_depth=1)
+
+
+def wears(**material):
+    return h.scene([h.Object(name="chair", mesh=h.quad(), materials=(Material(name="wood", **material),))])
+
+
+REFUSED = {
+    "no camera": (h.replaced(h.scene(), camera=None, name="Shot"), "scene 'Shot' has no camera"),
+    "something else as camera": (h.replaced(h.scene(), camera=PointLight()), "scene 'Scene': PointLight is not a camera"),
+    "camera that is not finite": (
+        h.scene(camera=PerspectiveCamera(name="Eye", world_from_camera=h.affine(translation=(np.nan, 0, 0)))),
+        "camera 'Eye': its transform is not finite or flattens space",
+    ),
+    "flat camera": (
+        h.scene(camera=PerspectiveCamera(name="Eye", world_from_camera=h.affine(np.diag((1.0, 1, 0))))),
+        "camera 'Eye': its transform is not finite or flattens space",
+    ),
+    "camera without a window": (h.scene(camera=PerspectiveCamera(name="Eye", window=(0, 0, 0, 0))), "camera 'Eye': window is"),
+    "world below zero": (h.scene(world=-1.0), r"world 'World': radiance is \(-1.0, -1.0, -1.0\)"),
+    "world of NaN": (h.scene(world=math.nan), "world 'World': radiance is"),
+    "emission below zero": (wears(emission=(-1, 0, 0)), r"material 'wood': emission is \(-1.0, 0.0, 0.0\)"),
+    "emission of inf": (wears(emission=(math.inf, 0, 0)), "material 'wood': emission is"),
+    "reflectance of NaN": (wears(lobes=(Lambert((math.nan, 0, 0)),)), "material 'wood': lambert reflectance is"),
+    "reflectance below zero": (wears(lobes=(Phong((-0.1, 0, 0)),)), "material 'wood': phong reflectance is"),
+    "a sum above one": (wears(lobes=(Lambert((0.7, 0, 0)), Phong((0.4, 0, 0)))), "material 'wood' reflects .*1.1.*, more than it receives"),
+    "exponent out of range": (wears(lobes=(Phong(exponent=-2.0),)), "material 'wood': Phong exponent is -2.0"),
+    "exponent of NaN": (wears(lobes=(Phong(exponent=math.nan),)), "material 'wood': Phong exponent is nan"),
+    "something else as lobe": (wears(lobes=("shiny",)), "material 'wood': str is not a BSDF"),
+    "something else as light": (h.scene(lights=["lamp"]), "str is not a light"),
+    "cone out of range": (h.scene(lights=[SpotLight(name="Cone", angle=0.0)]), "light 'Cone': angle 0.0 rad"),
+    "sun out of range": (h.scene(lights=[SunLight(name="Sol", angle=7.0)]), "light 'Sol': angle is 7.0 rad"),
+    "panel out of range": (h.scene(lights=[AreaLight(name="Panel", size_x=-1.0)]), "light 'Panel': size -1.0 x 1.0 m"),
+    "bulb out of range": (h.scene(lights=[PointLight(name="Lamp", radius=-1.0)]), "light 'Lamp': radius is -1.0 m"),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_cannot_be_rendered_is_refused_by_name(name):
+    scene, message = REFUSED[name]
+    with pytest.raises(SceneError, match=message):
+        validate(scene, SETTINGS)
+    with pytest.raises(SceneError, match=message):
+        render_image(scene, SETTINGS)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"integrator": "magic"}, "unknown integrator 'magic'; known: path"),
+        ({"sampler": "dice"}, "unknown sampler 'dice'; known: random, stratified"),
+        ({"pixel_filter": "fog"}, "unknown pixel filter 'fog'; known: blackman_harris, box"),
+        ({"passes": ("Combined", "Mist")}, "unknown pass 'Mist'; known: Combined, Depth, Normal"),
+    ],
+    ids=lambda x: next(iter(x)) if isinstance(x, dict) else "",
+)
+def test_unknown_plug_ins_are_refused_with_the_known_ones(changes, message):
+    with pytest.raises(SceneError, match=message):
+        next(render(h.scene(), Settings(**changes)))
+
+
+LEFT_OUT = {
+    "object of NaN": (
+        h.scene([h.thing(h.quad(name="chair"), matrix=h.affine(translation=(0, np.nan, 0)))]),
+        "object 'chair' is left out: its transform is not finite",
+    ),
+    "light of NaN": (h.scene(lights=[PointLight(name="Lamp", intensity=(math.nan, 1, 1))]), "light 'Lamp' is left out: one of its values is not finite"),
+    "light of inf": (
+        h.scene(lights=[AreaLight(name="Lamp", world_from_light=h.affine(translation=(math.inf, 0, 0)))]),
+        "light 'Lamp' is left out: one of its values is not finite",
+    ),
+    "light below zero": (h.scene(lights=[SunLight(name="Sol", irradiance=(-1.0, 0, 0))]), "light 'Sol' is left out: it would take light away"),
+}
+
+
+@pytest.mark.parametrize("name", LEFT_OUT)
+def test_what_can_be_left_out_is_and_the_rest_renders(name):
+    """One line for each, and the picture is that of the scene without it."""
+    scene, message = LEFT_OUT[name]
+    lit = [PointLight(position=(1, 1, 3))]
+    floor = h.thing(h.quad((0, 0, -0.5), (5, 0, 0), (0, 5, 0), name="floor"))
+    image = render_image(h.replaced(scene, objects=(*scene.objects, floor), lights=(*scene.lights, *lit)), SETTINGS)
+    assert image.warnings == (message,)
+    clean = render_image(h.scene([floor], lit), SETTINGS)
+    assert h.same_bits(image.passes["Combined"], clean.passes["Combined"])
+    assert image.passes["Combined"][..., 0].max() > 0
+
+
+def test_triangles_that_are_not_finite_are_counted():
+    vertices = np.array(h.quad().vertices)
+    vertices[0, 2] = np.nan
+    image = render_image(h.scene([h.thing(h.Mesh(name="torn", vertices=vertices, triangles=h.quad().triangles))]), SETTINGS)
+    assert len(image.warnings) == 1
+    assert "2 triangles are left out" in image.warnings[0]
+
+
+def test_a_scene_that_is_fine_is_not_touched():
+    scene = h.scene([h.thing(h.quad())], [PointLight()])
+    checked, warnings = validate(scene, SETTINGS)
+    assert warnings == ()
+    assert checked.objects == scene.objects
+    assert checked.lights == scene.lights
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        h.scene(),
+        h.scene(world=0.5),
+        h.scene(lights=[PointLight(), SunLight()]),
+        h.scene([h.thing(h.quad())]),
+        h.scene([h.Object(name="bare", mesh=h.quad())], [PointLight(position=(0, 0, 3))]),
+        h.scene([h.thing(h.Mesh(name="empty", vertices=np.zeros((3, 0)), triangles=np.zeros((3, 0))))], [PointLight()]),
+        h.scene([h.thing(h.Mesh(name="points", vertices=np.zeros((3, 9)), triangles=np.zeros((3, 0))))], world=0.5),
+        h.scene([h.thing(h.quad(), matrix=h.affine(np.zeros((3, 3))))], [PointLight()]),
+        h.scene([h.thing(h.quad(), matrix=h.affine(1e-30 * np.eye(3)))], [PointLight()]),
+        h.scene([h.thing(h.quad((3, -4, 2), (1, 0, 0), (0, 1, 0)))], [PointLight()]),
+    ],
+    ids=["nothing", "world", "lights", "no light", "no material", "no triangle", "loose points", "zero scale", "1e-30", "camera in a surface"],
+)
+def test_poor_scenes_render_without_a_word(scene):
+    """J14, J16: what is there, else black."""
+    image = h.pixels(scene, SETTINGS)
+    assert np.isfinite(image).all()
+    if any(scene.world.radiance):
+        assert (image == np.float32(0.5)).all()
