@@ -1,0 +1,211 @@
+"""`render` as a generator: progress, errors, cancelling (faults J3, J4, J19)."""
+
+import gc
+import threading
+
+import numpy as np
+import pytest
+
+from glanz.engine import GlanzError, Requirements, SceneError, render, render_image, rendering
+from glanz.engine.wavefront import direct, loop
+from glanz.tests import helpers as h
+from glanz.tests import scenes
+
+SETTINGS = h.settings(width=24, height=20, samples=4, max_depth=2, tile_size=8, threads=2)
+
+
+def glanz_threads():
+    return [thread for thread in threading.enumerate() if thread.name.startswith("glanz")]
+
+
+def final_tiles(items):
+    return [tile for progress in items for tile in progress.tiles if tile.is_final]
+
+
+def test_progress_rises_from_zero_to_one():
+    items = list(render(scenes.everything(), SETTINGS))
+    done = [progress.done for progress in items]
+    assert done[0] == 0
+    assert done[-1] == 1
+    assert done == sorted(done)
+
+
+def test_tiles_cover_the_frame_once():
+    covered = np.zeros((20, 24), int)
+    for tile in final_tiles(render(scenes.everything(), SETTINGS)):
+        assert tile.width <= 8
+        assert tile.height <= 8
+        assert tile.passes["Combined"].shape == (tile.height, tile.width, 4)
+        covered[tile.y : tile.y + tile.height, tile.x : tile.x + tile.width] += 1
+    assert (covered == 1).all()
+
+
+def test_tiles_of_a_border_stand_where_they_are_in_the_full_frame():
+    tiles = final_tiles(render(scenes.everything(), h.replaced(SETTINGS, border=(5, 6, 20, 19))))
+    assert min(tile.x for tile in tiles) == 5
+    assert max(tile.y + tile.height for tile in tiles) == 19
+
+
+def test_tiles_come_from_the_middle_outwards():
+    tiles = final_tiles(render(scenes.everything(), h.replaced(SETTINGS, width=40, height=40, threads=1)))
+    assert (tiles[0].x, tiles[0].y) == (16, 16)
+    assert {tiles[-1].x, tiles[-1].y} & {0, 32}
+
+
+def test_the_image_tells_how_it_was_made():
+    seen = []
+    image = render_image(scenes.everything(), SETTINGS, seen.append)
+    assert (image.width, image.height) == (24, 20)
+    assert seen[-1].done == 1
+    assert all(isinstance(value, str) for value in image.metadata.values())
+    assert image.metadata["glanz.samples"] == "4"
+    assert image.metadata["glanz.requirements"] == ", ".join(Requirements.of(scenes.everything(), SETTINGS).needs)
+
+
+def test_closing_ends_all_threads(monkeypatch):
+    """After a few tiles of many; the threads are gone when `close` returns."""
+    generator = render(scenes.everything(), h.replaced(SETTINGS, width=64, height=64, samples=16, threads=4))
+    for progress in generator:
+        if progress.tiles:
+            break
+    assert glanz_threads()
+    generator.close()
+    assert not glanz_threads()
+
+
+def test_an_abandoned_render_ends_its_threads_too():
+    generator = render(scenes.everything(), h.replaced(SETTINGS, width=64, height=64, samples=16))
+    while not next(generator).tiles:
+        pass
+    del generator
+    gc.collect()
+    assert not glanz_threads()
+
+
+def test_closing_stops_within_a_bounce(monkeypatch):
+    """No stage starts for more than one bounce of each thread once the generator is being closed."""
+    started = threading.Event()
+    after = []
+    stop = threading.Event()
+    closest = loop.interact
+
+    def slow(*args):
+        started.set()
+        if stop.is_set():
+            after.append(threading.current_thread().name)
+        return closest(*args)
+
+    monkeypatch.setattr(loop, "interact", slow)
+    generator = render(scenes.everything(), h.replaced(SETTINGS, width=128, height=128, samples=64, max_depth=30, tile_size=0, threads=1))
+    for _ in generator:
+        if started.is_set():
+            break
+    stop.set()
+    generator.close()
+    assert len(after) <= 1 + 1
+    assert not glanz_threads()
+
+
+def test_finished_renders_leave_no_thread():
+    render_image(scenes.everything(), SETTINGS)
+    assert not glanz_threads()
+
+
+@pytest.mark.parametrize("threads", [1, 4])
+@pytest.mark.parametrize("error", [ValueError("the moon is full"), MemoryError("no room"), SceneError("cup: broken"), KeyError("x")], ids=repr)
+def test_an_exception_in_a_worker_surfaces(monkeypatch, error, threads):
+    """J3: the first error stops everything, is raised as it is, and leaves no thread."""
+    calls = []
+
+    def failing(plan, rays, surface, reflection, film):
+        calls.append(rays)
+        if len(calls) == 3:
+            raise error
+
+    monkeypatch.setattr("glanz.engine.plan.add_direct_light", failing)
+    with pytest.raises(type(error)) as caught:
+        list(render(scenes.everything(), h.replaced(SETTINGS, threads=threads)))
+    assert caught.value is error
+    assert not glanz_threads()
+
+
+def test_an_exception_of_the_consumer_ends_all_threads():
+    with pytest.raises(RuntimeError, match="enough"):
+        render_image(scenes.everything(), h.replaced(SETTINGS, width=64, height=64), lambda progress: enough(progress))
+    gc.collect()
+    assert not glanz_threads()
+
+
+def enough(progress):
+    if progress.done > 0:
+        raise RuntimeError("enough")
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf])
+def test_bad_samples_are_black_counted_and_told(monkeypatch, bad):
+    """J19: one path in a hundred yields nonsense; the rest of its pixel stays."""
+    heuristic = direct.power_heuristic
+
+    def poisoned(pdf, other):
+        weight = np.broadcast_to(heuristic(pdf, other), other.shape).copy()
+        weight[::100] = bad
+        return weight
+
+    light = h.scene([h.thing(h.quad((0, 0, 0), (9, 0, 0), (0, 9, 0)))], [scenes.everything().lights[0]])
+    settings = h.replaced(SETTINGS, max_depth=0, threads=1, tile_size=0)
+    clean = h.pixels(light, settings)
+    monkeypatch.setattr(direct, "power_heuristic", poisoned)
+    image = render_image(light, settings)
+    values = np.moveaxis(image.passes["Combined"][..., :3], 2, 0)
+    assert np.isfinite(values).all()
+    changed = (values != clean).any(axis=0)
+    # NaN compares as not brighter than 0 and is dropped before the film; what reaches it is told.
+    assert 0 < changed.sum() <= 24 * 20 * 4 / 100 + 1
+    assert (values[:, changed] < clean[:, changed]).all()
+    if bad == np.inf:
+        counted = [int(w.split()[0]) for w in image.warnings]
+        assert sum(counted) == changed.sum()
+        assert image.warnings[0].endswith("samples were not finite and count as black")
+
+
+def test_errors_of_the_scene_come_with_the_first_item():
+    with pytest.raises(GlanzError, match="has no camera"):
+        next(render(h.replaced(h.scene(), camera=None), SETTINGS))
+    assert not glanz_threads()
+
+
+def test_two_renders_at_once_do_not_disturb_each_other():
+    """Interleaved generators, bit for bit what each gives alone."""
+    scene = scenes.everything()
+    settings = [h.replaced(SETTINGS, seed=s) for s in (1, 2)]
+    alone = [h.pixels(scene, s) for s in settings]
+    images = [np.zeros((3, 20, 24), np.float32) for _ in settings]
+    generators = [render(scene, s) for s in settings]
+    while generators[0] or generators[1]:
+        for i, generator in enumerate(generators):
+            progress = next(generator, None) if generator else None
+            if progress is None:
+                generators[i] = None
+                continue
+            for tile in progress.tiles:
+                images[i][:, tile.y : tile.y + tile.height, tile.x : tile.x + tile.width] = np.moveaxis(tile.passes["Combined"][..., :3], 2, 0)
+    assert h.same_bits(images[0], alone[0])
+    assert h.same_bits(images[1], alone[1])
+
+
+def test_the_consumer_is_woken_while_a_tile_takes_long(monkeypatch):
+    """Between tiles there are items without any, so that cancelling can be asked for."""
+    release = threading.Event()
+    closest = loop.interact
+
+    def waiting(*args):
+        release.wait(10)
+        return closest(*args)
+
+    monkeypatch.setattr(loop, "interact", waiting)
+    monkeypatch.setattr(rendering, "POLL_SECONDS", 0.01)
+    generator = render(scenes.everything(), h.replaced(SETTINGS, tile_size=0))
+    empty = [next(generator) for _ in range(5)]
+    assert all(not progress.tiles for progress in empty)
+    release.set()
+    assert list(generator)[-1].done == 1

@@ -1,0 +1,189 @@
+"""Only what a scene asks for is modelled: the table, that leaving out changes nothing, and that it pays."""
+
+import json
+
+import numpy as np
+import pytest
+
+from glanz.engine import AreaLight, Lambert, Material, Phong, PointLight, Requirements, SunLight, needs
+from glanz.engine.plan import Plan
+from glanz.engine.world.accel import Accel
+from glanz.tests import helpers as h
+from glanz.tests import scenes
+
+SETTINGS = h.settings(width=16, height=16, samples=4, max_depth=3)
+ALWAYS = {"integrator path", "sampler stratified", "filter box", "pass Combined", "camera perspective"}
+MATTE = h.thing(h.box(name="chair"), h.lambert(0.5, "wood"))
+SHINY = h.thing(h.box(), Material(name="brass", lobes=(Phong((0.5, 0.5, 0.5), 9.0),)))
+LAMP = h.thing(h.quad((0, 0, 3), name="lamp"), h.lambert(0, "glow", 1.0))
+SMOOTH = h.thing(h.icosphere(1, smooth=True, name="ball"), h.lambert(0.5, "wood"))
+FLOOR = h.thing(h.quad((0, 0, -1), (9, 0, 0), (0, 9, 0), name="floor"), h.lambert(0.5, "wood"))
+BULB = PointLight(name="bulb", position=(1.0, -2.0, 3.0))
+EMPTY = h.thing(h.Mesh(name="empty", vertices=np.zeros((3, 0)), triangles=np.zeros((3, 0))), LAMP.materials[0])
+BLACK_LOBE = h.thing(h.box(), Material(name="m", lobes=(Lambert((0.0, 0.0, 0.0)), Phong((0.5, 0, 0), 2.0))))
+
+TABLE = {
+    "nothing": (h.scene(), {}),
+    "matte": (h.scene([MATTE]), {"geometry": ["chair"], "bsdf lambert": ["wood"]}),
+    "shiny": (h.scene([SHINY]), {"geometry": ["box"], "bsdf phong": ["brass"]}),
+    "smooth": (h.scene([SMOOTH]), {"geometry": ["ball"], "smooth normals": ["ball"], "bsdf lambert": ["wood"]}),
+    "bulb": (h.scene([MATTE], [BULB]), {"geometry": ["chair"], "bsdf lambert": ["wood"], "light point": ["bulb"]}),
+    "bulb with a size": (
+        h.scene([MATTE], [h.replaced(BULB, radius=0.5)]),
+        {"geometry": ["chair"], "bsdf lambert": ["wood"], "light point": ["bulb"], "light hits": ["bulb"]},
+    ),
+    "sun without a size": (h.scene(lights=[SunLight(name="Sol")]), {"light sun": ["Sol"]}),
+    "two lights": (
+        h.scene(lights=[BULB, AreaLight(name="panel")]),
+        {"light point": ["bulb"], "light area": ["panel"], "light hits": ["panel"], "light choice": ["bulb", "panel"]},
+    ),
+    "lamp": (h.scene([LAMP]), {"geometry": ["lamp"], "emissive meshes": ["lamp"], "light choice": ["lamp"]}),
+    "world": (h.scene([MATTE], world=0.5), {"geometry": ["chair"], "bsdf lambert": ["wood"], "background": ["World"]}),
+    "dark light": (h.scene(lights=[h.replaced(BULB, intensity=(0.0,) * 3)]), {}),
+    "empty mesh": (h.scene([EMPTY]), {}),
+    "black lobe": (h.scene([BLACK_LOBE]), {"geometry": ["box"], "bsdf phong": ["m"]}),
+    "bare object": (h.scene([h.Object(name="bare", mesh=h.quad())]), {"geometry": ["bare"]}),
+}
+
+
+@pytest.mark.parametrize("name", TABLE)
+def test_a_scene_requires_what_it_holds_and_says_who_asked(name):
+    scene, expected = TABLE[name]
+    found = Requirements.of(scene, SETTINGS).as_dict()
+    assert {need: names for need, names in found.items() if need not in ALWAYS} == expected
+    assert set(found) >= ALWAYS
+
+
+def test_settings_ask_too():
+    found = Requirements.of(h.scene(), h.replaced(SETTINGS, sampler="random", pixel_filter="blackman_harris", passes=("Depth",))).as_dict()
+    assert found["sampler random"] == found["filter blackman_harris"] == found["pass Depth"] == ["settings"]
+    assert "pass Combined" not in found
+
+
+def test_names_appear_once_in_the_order_of_the_scene():
+    many = [h.thing(h.quad(name=f"o{i}"), h.lambert(0.5, "wood")) for i in range(6)]
+    required = Requirements.of(h.scene(many), SETTINGS)
+    assert required.needs["bsdf lambert"] == ("wood",)
+    assert required.needs["geometry"] == tuple(f"o{i}" for i in range(6))
+    assert "o0, o1, o2, o3 and 2 more" in str(required)
+
+
+def test_the_table_is_for_people_and_machines():
+    required = Requirements.of(scenes.everything(), SETTINGS)
+    assert json.loads(json.dumps(required.as_dict())) == required.as_dict()
+    lines = str(required).splitlines()
+    assert len(lines) == len(required.needs)
+    assert all("  " in line for line in lines)
+    assert required == Requirements.of(scenes.everything(), SETTINGS)
+
+
+def test_every_need_has_a_meaning():
+    assert set(needs.MEANING) == {v for k, v in vars(needs).items() if k.isupper() and isinstance(v, str)}
+
+
+SCENES = {
+    "matte and bulb": h.scene([MATTE, FLOOR], [BULB]),
+    "shiny and sun": h.scene([SHINY, FLOOR], [SunLight(towards=(0.6, 0.0, 0.8))]),
+    "lamp": h.scene([MATTE, FLOOR, LAMP]),
+    "world": h.scene([MATTE, FLOOR], world=0.5),
+    "panel": h.scene([MATTE, FLOOR], [AreaLight(world_from_light=h.affine(translation=(0, 0, 3)))]),
+    "two lights": h.scene([MATTE, FLOOR], [BULB, SunLight()]),
+    "smooth": h.scene([SMOOTH, FLOOR], [BULB]),
+    "seen, not lit": h.scene([MATTE, FLOOR]),
+    "everything": scenes.everything(),
+}
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_leaving_out_changes_no_bit(name):
+    """Pruned image = unpruned image: all stages and lobes for a scene that does not ask for them."""
+    scene = SCENES[name]
+    pruned = Plan.of(scene, SETTINGS, Requirements.of(scene, SETTINGS))
+    unpruned = Plan.of(scene, SETTINGS, Requirements.everything(scene, SETTINGS))
+    image = h.pixels_of_plan(pruned)
+    assert h.same_bits(image, h.pixels_of_plan(unpruned))
+    assert image.max() > 0 or name == "seen, not lit"
+
+
+def test_bits_catch_a_stage_that_is_missing():
+    scene = SCENES["world"]
+    required = Requirements.of(scene, SETTINGS)
+    without = Requirements({need: names for need, names in required.needs.items() if need != "background"})
+    assert not h.same_bits(h.pixels_of_plan(Plan.of(scene, SETTINGS, without)), h.pixels_of_plan(Plan.of(scene, SETTINGS, required)))
+
+
+def test_everything_asks_for_everything():
+    required = Requirements.everything(h.scene(), SETTINGS)
+    for need in needs.MEANING:
+        assert need in required
+    for key in ("bsdf lambert", "bsdf phong", "light area", "light point", "light spot", "light sun"):
+        assert key in required
+
+
+def calls_of(monkeypatch, scene, required):
+    """What a render with `required` costs in calls: {name: number}, and the rays that it traces."""
+    plan = Plan.of(scene, SETTINGS, required)
+    counts = {}
+
+    def count(stage):
+        def counted(*args):
+            counts[stage.__name__] = counts.get(stage.__name__, 0) + 1
+            return stage(*args)
+
+        return counted
+
+    plan = h.replaced(
+        plan,
+        on_rays=tuple(map(count, plan.on_rays)),
+        on_surface=tuple(map(count, plan.on_surface)),
+        shading_normals=count(plan.shading_normals),
+    )
+    with monkeypatch.context() as patch:
+        numbers = h.spy(patch, type(plan.numbers), "one")
+        evaluations = [h.spy(patch, bsdf, "eval") for bsdf in {lobe.bsdf for lobe in plan.world.materials.lobes}]
+        closest = h.spy(patch, Accel, "closest")
+        h.pixels_of_plan(plan)
+    counts |= {"numbers": len(numbers), "evaluations": sum(map(len, evaluations)), "closest": len(closest)}
+    return counts, sum(call.args[1].shape[1] for call in closest)
+
+
+@pytest.mark.parametrize(
+    ("name", "absent"),
+    [
+        ("matte and bulb", {"add_background", "add_light_hits", "add_emission", "smooth_normals"}),
+        ("shiny and sun", {"add_background", "add_light_hits", "add_emission", "smooth_normals"}),
+        ("lamp", {"add_background", "add_light_hits", "smooth_normals"}),
+        ("world", {"add_light_hits", "add_emission", "add_direct_light", "smooth_normals"}),
+        ("panel", {"add_background", "add_emission", "smooth_normals"}),
+        ("smooth", {"add_background", "add_light_hits", "add_emission", "flat_normals"}),
+        ("seen, not lit", {"add_background", "add_light_hits", "add_emission", "add_direct_light"}),
+    ],
+)
+def test_leaving_out_pays(monkeypatch, name, absent):
+    """H9: absent stages are never called, and the rest is called less often than with everything. Calls, not seconds."""
+    scene = SCENES[name]
+    pruned, rays = calls_of(monkeypatch, scene, Requirements.of(scene, SETTINGS))
+    full, full_rays = calls_of(monkeypatch, scene, Requirements.everything(scene, SETTINGS))
+    assert not absent & set(pruned)
+    assert sum(pruned.values()) < sum(full.values())
+    assert pruned["evaluations"] < full["evaluations"]
+    assert pruned["numbers"] < full["numbers"]
+    assert rays <= full_rays
+
+
+def test_the_last_bounce_is_not_traced_where_it_could_find_nothing(monkeypatch):
+    """With a bulb without a size and no world, d bounces take d + 1 batches of rays; with a lamp one more."""
+    for depth in (0, 1, 4):
+        for name, more in (("matte and bulb", 0), ("lamp", 1), ("world", 1)):
+            with monkeypatch.context() as patch:
+                closest = h.spy(patch, Accel, "closest")
+                h.pixels(SCENES[name], h.replaced(SETTINGS, max_depth=depth))
+            assert len([c for c in closest if c.args[1].shape[1] > 1]) <= depth + 1 + more, (name, depth)
+
+
+def test_a_scene_that_reflects_nothing_is_traced_once(monkeypatch):
+    closest = h.spy(monkeypatch, Accel, "closest")
+    seen = h.thing(h.quad((1, 0, 1.5), name="seen"), h.lambert(0, "glow", 1.0))
+    image = h.pixels(h.scene([seen, h.thing(h.box(), Material(name="black"))], [BULB]), SETTINGS)
+    assert len([c for c in closest if c.args[1].shape[1] > 1]) == 1
+    assert image.max() > 0
