@@ -1,0 +1,54 @@
+"""The measurements as a table, with the bar that each is held to."""
+
+ROWS = (
+    # result, key, what it is, unit, bar
+    ("speed", "glanz", "Cornell box 512x512, 16 samples, 2 threads: Glanz, F12", "s", None),
+    ("speed", "cycles", "the same: Cycles, F12", "s", None),
+    ("speed", "ratio", "Glanz / Cycles, wall time", "", 0.7),
+    ("speed", "cpu_ratio", "Glanz / Cycles, processor time", "", None),
+    ("speed", "core", "the same: engine alone, without Blender", "s", None),
+    ("speed", "embree_share", "share of the threads' time inside Embree", "%", -55),
+    ("speed", "rays", "rays traced in the picture", "M", None),
+    ("speed", "rays_per_second", "rays per second of wall time", "M/s", None),
+    ("error", "glanz", "RMSE against 2048 samples: Glanz, 16 samples", "", None),
+    ("error", "cycles", "the same: Cycles", "", None),
+    ("error", "ratio", "Glanz / Cycles, error at equal samples", "", None),
+    ("instances", "triangles", "instances: triangles in the depsgraph", "M", None),
+    ("instances", "export", "export", "s", None),
+    ("instances", "compile", "world compile", "s", None),
+    ("instances", "total", "export and world compile", "s", 4.0),
+    ("memory", "import_bpy", "resident after `import bpy`", "MB", None),
+    ("memory", "peak", "peak, Cornell box 1920x1080 with 3 passes", "MB", None),
+    ("memory", "over", "over what `import bpy` takes", "MB", 1000),
+)
+"""A bar is an upper bound; a negative one is a lower bound."""
+
+
+def show(results):
+    """Print the rows that `results` {name: {key: number}} hold; in colour where rich is installed."""
+    rows = [
+        (text, f"{results[name][key]:.3g} {unit}".strip(), verdict(results[name][key], bar))
+        for name, key, text, unit, bar in ROWS
+        if name in results
+    ]
+    try:
+        from rich.console import Console
+        from rich.table import Table
+    except ImportError:
+        for text, value, held in rows:
+            print(f"{text:62} {value:>12}  {held}")
+        return
+    table = Table("measured", "value", "bar")
+    table.columns[1].justify = "right"
+    for text, value, held in rows:
+        colour = "green" if held.endswith("held") else "red" if held else ""
+        table.add_row(text, value, f"[{colour}]{held}[/]" if colour else held)
+    Console(width=110).print(table)
+
+
+def verdict(value, bar):
+    """`at most 0.7: held`, or `at least 55: missed`; nothing without a bar."""
+    if bar is None:
+        return ""
+    holds = value <= bar if bar > 0 else value >= -bar
+    return f"at {'most' if bar > 0 else 'least'} {abs(bar):g}: {'held' if holds else 'missed'}"
