@@ -112,7 +112,8 @@ class ByPlace:
     def probability(self, index, p):
         """See `ByPower.probability`."""
         weights = self._weights(p)
-        return self._probability(index, weights, weights.sum(axis=0))
+        # Not weights.sum(axis=0), which adds in another order where there is one lane, and so would depend on the tiles.
+        return self._probability(index, weights, sum(weights[1:], weights[0]))
 
     def _probability(self, index, weights, sum_of_weights):
         cluster = self.cluster.take(index)
