@@ -59,7 +59,20 @@ def quad(centre=(0, 0, 0), x=(1, 0, 0), y=(0, 1, 0), name="quad"):
 def icosphere(subdivisions=1, radius=1.0, centre=(0, 0, 0), smooth=False, name="icosphere"):
     """A closed sphere of 20 * 4^subdivisions triangles, faces outwards."""
     g = (1 + math.sqrt(5)) / 2
-    points = [(-1, g, 0), (1, g, 0), (-1, -g, 0), (1, -g, 0), (0, -1, g), (0, 1, g), (0, -1, -g), (0, 1, -g), (g, 0, -1), (g, 0, 1), (-g, 0, -1), (-g, 0, 1)]
+    points = [
+        (-1, g, 0),
+        (1, g, 0),
+        (-1, -g, 0),
+        (1, -g, 0),
+        (0, -1, g),
+        (0, 1, g),
+        (0, -1, -g),
+        (0, 1, -g),
+        (g, 0, -1),
+        (g, 0, 1),
+        (-g, 0, -1),
+        (-g, 0, 1),
+    ]
     points = [np.array(p) / np.linalg.norm(p) for p in points]
     faces = [(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 9), (5, 11, 4), (11, 10, 2), (10, 7, 6), (7, 1, 8)]
     faces += [(3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8), (3, 8, 9), (4, 9, 5), (2, 4, 11), (6, 2, 10), (8, 6, 7), (9, 8, 1)]
@@ -99,6 +112,7 @@ def thing(mesh, material=None, matrix=None):
 
 
 # Transforms
+
 
 def rotation(seed):
     """A random rotation (3, 3)."""
@@ -175,6 +189,7 @@ def receiver(lights=(), objects=(), point=(0, 0, 0), normal=(0, 0, 1), material=
 
 # Numbers
 
+
 def uniform(seed, n, dtype=np.float64):
     """u2 (2, n) in [0, 1)."""
     return np.random.default_rng(seed).random((2, n), dtype)
@@ -214,6 +229,7 @@ def dots(a, b):
 
 
 # Statistics
+
 
 def mean_is(samples, truth, floor=0.0, absolute=0.0):
     """Whether independent `samples` (N,) have the mean `truth`, at level ALPHA; `floor` (relative) is rounding to forgive.

@@ -146,7 +146,12 @@ def check_dtype_is_kept(value):
 def check_lanes_are_independent(value):
     """One lane alone gives the bits that it gives among others."""
     n = 1_003
-    k, normal, wo, u2 = h.table(value.row(), np.float32), h.directions(1, n, np.float32), h.directions(2, n, np.float32), h.uniform(3, n, np.float32)
+    k, normal, wo, u2 = (
+        h.table(value.row(), np.float32),
+        h.directions(1, n, np.float32),
+        h.directions(2, n, np.float32),
+        h.uniform(3, n, np.float32),
+    )
     wi = value.sample(k, normal, wo, u2)
     f, pdf = np.broadcast_to(value.eval(k, normal, wo, wi), wi.shape), value.pdf(k, normal, wo, wi)
     for lane in (0, 1, 7, 500, n - 1):
@@ -225,6 +230,7 @@ def test_parameters_out_of_range_are_refused_by_name():
 
 
 # Mutants: what each law must refuse.
+
 
 def phong_with(**changes):
     return type("Mutant", (Phong,), {name: staticmethod(f) for name, f in changes.items()})((1.0, 1.0, 1.0), 10.0)

@@ -9,8 +9,7 @@ from glanz.engine import PerspectiveCamera, PointLight
 from glanz.engine.integrators.path import Path
 from glanz.engine.interfaces import Integrator
 from glanz.engine.registry import INTEGRATORS
-from glanz.tests import helpers as h
-from glanz.tests import scenes
+from glanz.tests import helpers as h, scenes
 
 each = pytest.mark.parametrize("integrator", INTEGRATORS.values(), ids=lambda i: i.key)
 INSIDE = PerspectiveCamera.look_at((0.3, 0.4, 0.5), (0.9, 0.8, 0.2))

@@ -196,6 +196,7 @@ def test_nothing_is_nan_at_the_corners_of_the_unit_square_or_at_the_light_itself
 
 # Mutants
 
+
 def mutant_of(value, **changes):
     """`value` with static functions replaced."""
     return type("Mutant", (_Stand,), {name: staticmethod(f) for name, f in changes.items()})(value)

@@ -9,8 +9,7 @@ from glanz.engine import PerspectiveCamera, render_image
 from glanz.engine.interfaces import Pass
 from glanz.engine.passes.depth import Depth
 from glanz.engine.registry import PASSES
-from glanz.tests import helpers as h
-from glanz.tests import scenes
+from glanz.tests import helpers as h, scenes
 
 each = pytest.mark.parametrize("plugin", PASSES.values(), ids=lambda p: p.key)
 ALL = tuple(PASSES)

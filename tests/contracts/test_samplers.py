@@ -209,6 +209,7 @@ def test_random_variance_is_that_of_independent_numbers():
 
 # Mutants
 
+
 def mutant(base, **changes):
     return type("Mutant", (base,), {name: staticmethod(f) for name, f in changes.items()})
 

@@ -8,8 +8,7 @@ import pytest
 
 from glanz.engine import GlanzError, Requirements, SceneError, render, render_image, rendering
 from glanz.engine.wavefront import direct, loop
-from glanz.tests import helpers as h
-from glanz.tests import scenes
+from glanz.tests import helpers as h, scenes
 
 SETTINGS = h.settings(width=24, height=20, samples=4, max_depth=2, tile_size=8, threads=2)
 
@@ -112,7 +111,9 @@ def test_finished_renders_leave_no_thread():
 
 
 @pytest.mark.parametrize("threads", [1, 4])
-@pytest.mark.parametrize("error", [ValueError("the moon is full"), MemoryError("no room"), SceneError("cup: broken"), KeyError("x")], ids=repr)
+@pytest.mark.parametrize(
+    "error", [ValueError("the moon is full"), MemoryError("no room"), SceneError("cup: broken"), KeyError("x")], ids=repr
+)
 def test_an_exception_in_a_worker_surfaces(monkeypatch, error, threads):
     """J3: the first error stops everything, is raised as it is, and leaves no thread."""
     calls = []
@@ -188,7 +189,9 @@ def test_two_renders_at_once_do_not_disturb_each_other():
                 generators[i] = None
                 continue
             for tile in progress.tiles:
-                images[i][:, tile.y : tile.y + tile.height, tile.x : tile.x + tile.width] = np.moveaxis(tile.passes["Combined"][..., :3], 2, 0)
+                images[i][:, tile.y : tile.y + tile.height, tile.x : tile.x + tile.width] = np.moveaxis(
+                    tile.passes["Combined"][..., :3], 2, 0
+                )
     assert h.same_bits(images[0], alone[0])
     assert h.same_bits(images[1], alone[1])
 

@@ -8,8 +8,7 @@ import pytest
 from glanz.engine import AreaLight, Lambert, Material, Phong, PointLight, Requirements, SunLight, needs
 from glanz.engine.plan import Plan
 from glanz.engine.world.accel import Accel
-from glanz.tests import helpers as h
-from glanz.tests import scenes
+from glanz.tests import helpers as h, scenes
 
 SETTINGS = h.settings(width=16, height=16, samples=4, max_depth=3)
 ALWAYS = {"integrator path", "sampler stratified", "filter box", "pass Combined", "camera perspective"}

@@ -164,7 +164,12 @@ def test_counting_catches_shadow_rays_that_share_with_nobody(monkeypatch):
 
 def test_strong_and_weak_lights_of_different_kinds_add_up():
     """The sum of pictures is the picture of the sum; detects 2 %. The weak one is a thousandth."""
-    lights = [POINT, SunLight(irradiance=(1e-3,) * 3), AreaLight(world_from_light=OVERHEAD), PointLight(position=(0.0, -1.0, 1.0), intensity=(0.1,) * 3)]
+    lights = [
+        POINT,
+        SunLight(irradiance=(1e-3,) * 3),
+        AreaLight(world_from_light=OVERHEAD),
+        PointLight(position=(0.0, -1.0, 1.0), intensity=(0.1,) * 3),
+    ]
     truth = EXACT["point"][1][0] + 1e-3 + SQUARE + 0.1 / 2 / math.sqrt(2)
     values = irradiances(h.receiver(lights, distance=0.5), samples=256)
     assert h.mean_is(values[0], truth, floor=1e-5)
@@ -230,7 +235,12 @@ def test_an_emissive_surface_that_is_seen_has_its_radiance_on_both_sides():
 
 def test_light_that_touches_its_receiver_stays_finite():
     """E10: a square light lying on the patch, crossing it, and standing in it: finite, and at most pi L."""
-    for matrix in (h.affine(np.eye(3), (0, 0, 1e-6)), h.affine(h.frame_towards((0, 1, 1))), h.affine(h.frame_towards((0, 1, 0))), np.eye(4)):
+    for matrix in (
+        h.affine(np.eye(3), (0, 0, 1e-6)),
+        h.affine(h.frame_towards((0, 1, 1))),
+        h.affine(h.frame_towards((0, 1, 0))),
+        np.eye(4),
+    ):
         values = irradiances(h.receiver([AreaLight(world_from_light=matrix)], distance=0.5), samples=64)
         assert np.isfinite(values).all()
         assert values.mean() <= math.pi * 1.2
@@ -246,7 +256,9 @@ def test_a_bulb_on_its_receiver_stays_finite():
         assert (image >= 0).all()
 
 
-@pytest.mark.parametrize("light", [AreaLight(size_x=0.0), PointLight(intensity=(0.0,) * 3), SunLight(irradiance=(0.0,) * 3), AreaLight(radiance=(0.0,) * 3)])
+@pytest.mark.parametrize(
+    "light", [AreaLight(size_x=0.0), PointLight(intensity=(0.0,) * 3), SunLight(irradiance=(0.0,) * 3), AreaLight(radiance=(0.0,) * 3)]
+)
 def test_lights_without_area_or_power_give_nothing(light):
     """E11: alone and beside another."""
     assert irradiances(h.receiver([light])).max() == 0

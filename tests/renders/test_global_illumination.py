@@ -103,7 +103,11 @@ def test_photons_are_lost_only_where_they_are_absorbed(light):
         1: ([PointLight(position=(-0.4, 0.2, 0.3), radius=0.3, soft_falloff=False)], 4 * math.pi),
         2: ([AreaLight(world_from_light=h.affine(h.rotation(3), (0.1, 0.2, 0.3)), size_x=0.5, size_y=0.3)], math.pi * 0.15),
         3: (
-            [PointLight(position=(0.5, -0.2, 0.4)), SpotLight(intensity=(2.0,) * 3, angle=1.0, blend=0.0), PointLight(position=(0, -0.6, 0))],
+            [
+                PointLight(position=(0.5, -0.2, 0.4)),
+                SpotLight(intensity=(2.0,) * 3, angle=1.0, blend=0.0),
+                PointLight(position=(0, -0.6, 0)),
+            ],
             4 * math.pi * (2 + 2 * 0.5 * (1 - math.cos(0.5))),
         ),
     }[light]
@@ -194,13 +198,16 @@ def test_a_phong_surface_in_white_light_shows_its_albedo(degrees, albedo):
 
 def test_more_depth_is_more_light_and_converges():
     """F11: monotone in depth; each bounce adds what the series says; 1000 bounces end."""
-    means = [h.pixels(furnace(h.box(), 0.8), h.settings(width=32, height=32, samples=16, max_depth=d))[0].mean() for d in (0, 1, 2, 5, 1000)]
+    means = [
+        h.pixels(furnace(h.box(), 0.8), h.settings(width=32, height=32, samples=16, max_depth=d))[0].mean() for d in (0, 1, 2, 5, 1000)
+    ]
     assert (np.diff(means) > 0).all()
     np.testing.assert_allclose(means, [series(1, 0.8, d) if d < 1000 else 5.0 for d in (0, 1, 2, 5, 1000)], rtol=0.02)
 
 
 def coloured(channel=None):
     """A scene of coloured walls and lights, or one channel of it as greys."""
+
     def only(c):
         return c if channel is None else (c[channel],) * 3
 

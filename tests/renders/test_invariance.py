@@ -3,11 +3,10 @@
 import numpy as np
 import pytest
 
-from glanz.engine import Mesh, Object, PointLight, Scene, rendering
+from glanz.engine import Mesh, PointLight, Scene, rendering
 from glanz.engine.wavefront import loop
 from glanz.engine.world.frame import Frame
-from glanz.tests import helpers as h
-from glanz.tests import scenes
+from glanz.tests import helpers as h, scenes
 
 SMALL = h.settings(width=24, height=16, samples=4, max_depth=3, threads=2)
 FULL = h.replaced(SMALL, passes=("Combined", "Depth", "Normal"))
@@ -85,6 +84,7 @@ def edited(mesh, triangles, corner=None):
 
 def test_degenerate_triangles_change_no_bit():
     """A11: ten thousand without an area beside the real ones."""
+
     def with_degenerates(mesh):
         odd = np.random.default_rng(1).integers(0, mesh.vertices.shape[1], (1, 10_000))
         if mesh.is_smooth:
@@ -96,6 +96,7 @@ def test_degenerate_triangles_change_no_bit():
 
 def test_the_order_of_triangles_changes_no_bit():
     """A11: there is no light among them, so nothing is chosen by their number."""
+
     def shuffled(mesh):
         order = np.random.default_rng(2).permutation(mesh.triangles.shape[1])
         normals = {"normals": mesh.normals, "normal_indices": mesh.normal_indices[:, order]} if mesh.is_smooth else {}
@@ -111,6 +112,7 @@ def test_the_order_of_objects_changes_no_bit():
 
 def test_windings_change_no_more_than_rounding():
     """A11: surfaces have no back. Corners in another order are summed in another order, so bits may differ."""
+
     def turned(mesh):
         return edited(mesh, mesh.triangles[[0, 2, 1]], [0, 2, 1])
 
@@ -125,7 +127,13 @@ def test_an_instance_is_what_its_copy_is():
     light = PointLight(position=(2.0, -1.0, 3.0), intensity=(20.0,) * 3)
     shared = h.scene([h.thing(mesh, matrix=m) for m in places], [light])
     copies = [
-        Mesh(name=f"{i}", vertices=mesh.vertices + m[:3, 3:], triangles=mesh.triangles, normals=mesh.normals, normal_indices=mesh.normal_indices)
+        Mesh(
+            name=f"{i}",
+            vertices=mesh.vertices + m[:3, 3:],
+            triangles=mesh.triangles,
+            normals=mesh.normals,
+            normal_indices=mesh.normal_indices,
+        )
         for i, m in enumerate(places)
     ]
     assert h.same_bits(h.pixels(h.scene([h.thing(c) for c in copies], [light]), SMALL), h.pixels(shared, SMALL))

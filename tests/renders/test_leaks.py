@@ -30,7 +30,10 @@ def escapes(mesh, monkeypatch, scale=1.0, offset=(0.0, 0.0, 0.0), paths=10_000, 
     calls = h.spy(monkeypatch, Accel, "closest")
     side = math.isqrt(paths)
     # The walk goes on because the world could be seen.
-    h.pixels(h.scene([h.thing(mesh, h.lambert(1.0), matrix)], camera=camera, world=1.0), h.settings(width=side, height=side, samples=1, max_depth=depth))
+    h.pixels(
+        h.scene([h.thing(mesh, h.lambert(1.0), matrix)], camera=camera, world=1.0),
+        h.settings(width=side, height=side, samples=1, max_depth=depth),
+    )
     traced = [call.result.prim for call in calls if call.result.prim.size > 1]
     monkeypatch.undo()
     return sum(np.count_nonzero(prim < 0) for prim in traced), sum(prim.size for prim in traced)
@@ -63,7 +66,9 @@ def test_walks_catch_rays_that_start_on_the_surface(monkeypatch):
         patch.setattr(interaction, "START_ULPS", 0)
         calls = h.spy(patch, Accel, "closest")
         camera = PerspectiveCamera.look_at((0.11, -0.07, 0.05), (0.4, 0.5, 0.2))
-        h.pixels(h.scene([h.thing(star(), h.lambert(1.0))], camera=camera, world=1.0), h.settings(width=40, height=40, samples=1, max_depth=50))
+        h.pixels(
+            h.scene([h.thing(star(), h.lambert(1.0))], camera=camera, world=1.0), h.settings(width=40, height=40, samples=1, max_depth=50)
+        )
         lost = sum(np.count_nonzero(call.result.prim < 0) for call in calls if call.result.prim.size > 1)
     assert lost > 100
 
@@ -124,7 +129,9 @@ def test_lamps_catch_shadow_rays_that_go_all_the_way(monkeypatch):
     """The mutant neither lifts points off the lamp nor shortens the ray."""
     monkeypatch.setattr(direct, "_SHORTENED", np.float32(1))
     monkeypatch.setattr(patches, "END_ULPS", 0)
-    occluded, asked, _ = shadow_rays(monkeypatch, lamp_over_floor(turn=h.rotation(1)), h.settings(width=32, height=32, samples=4, max_depth=0))
+    occluded, asked, _ = shadow_rays(
+        monkeypatch, lamp_over_floor(turn=h.rotation(1)), h.settings(width=32, height=32, samples=4, max_depth=0)
+    )
     assert occluded > 0.1 * asked
 
 

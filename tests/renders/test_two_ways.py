@@ -113,6 +113,8 @@ def test_brighter_plates_are_found_with_little_noise_at_every_sharpness(monkeypa
     for exponent in (2.0, 2000.0):
         material = Material(name="plate", lobes=(Phong((1.0,) * 3, exponent),))
         frame = h.affine(h.frame_towards((-0.6, 0, 0.8)), (-0.6, 0, 0.8))
-        scene = h.receiver([AreaLight(world_from_light=frame, size_x=0.3, size_y=0.3)], material=material, distance=0.3, tilt=math.atan(0.75))
+        scene = h.receiver(
+            [AreaLight(world_from_light=frame, size_x=0.3, size_y=0.3)], material=material, distance=0.3, tilt=math.atan(0.75)
+        )
         noise = {way: image_of(monkeypatch, way, scene, 1, samples=16).std() for way in ("shadow rays", "scattered rays", "both")}
         assert noise["both"] <= 1.5 * min(noise["shadow rays"], noise["scattered rays"]), exponent

@@ -92,14 +92,13 @@ def test_the_limit_is_the_mirror_times_the_cosine(n):
 
 # A material of several lobes (C10)
 
+
 def reflection(*lobes):
     bsdfs = tuple(b for b in BSDFS.values() if any(type(lobe) is b for lobe in lobes))
     return Materials.of([Material(name="mixed", lobes=lobes)], bsdfs).at(np.zeros(1, np.intp))
 
 
-@pytest.mark.parametrize(
-    ("kd", "ks"), [(0.3, 0.6), (0.0, 0.9), (0.9, 0.0), (0.0, 0.0), (1e-30, 0.5)], ids=lambda x: f"{x:g}"
-)
+@pytest.mark.parametrize(("kd", "ks"), [(0.3, 0.6), (0.0, 0.9), (0.9, 0.0), (0.0, 0.0), (1e-30, 0.5)], ids=lambda x: f"{x:g}")
 def test_a_mixture_weighs_and_samples_its_lobes_by_their_shares(kd, ks):
     """C10: the mean weight is the sum of the albedos, also with one of the lobes, or both, black; detects 0.5 %."""
     n, exponent, angle = 200_000, 10.0, np.radians(45)
@@ -118,5 +117,8 @@ def test_two_lobes_of_one_kind_add_up():
     both = reflection(Phong((0.3,) * 3, 5.0), Phong((0.4,) * 3, 500.0))
     wo, wi = h.at_angle(0.4, dtype=np.float32), h.at_angle(0.42, np.pi, dtype=np.float32)
     f, _ = both.eval(Z.astype(np.float32), wo, wi)
-    truth = sum(Phong.eval(h.table(p.row()), Z, h.at_angle(0.4), h.at_angle(0.42, np.pi)) for p in (Phong((0.3,) * 3, 5.0), Phong((0.4,) * 3, 500.0)))
+    truth = sum(
+        Phong.eval(h.table(p.row()), Z, h.at_angle(0.4), h.at_angle(0.42, np.pi))
+        for p in (Phong((0.3,) * 3, 5.0), Phong((0.4,) * 3, 500.0))
+    )
     np.testing.assert_allclose(f, truth, rtol=1e-4)

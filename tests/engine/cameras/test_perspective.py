@@ -82,7 +82,9 @@ def test_a_point_appears_in_the_pixel_that_it_projects_to(place):
     middle = camera.position + 3 * (x * u + y * v - w)
     assert np.floor(projected(camera, width, height, middle[:, None])).ravel().tolist() == list(place)
     speck = h.quad(middle, 0.2 * u, 0.2 * v, name="speck")
-    image = h.pixels(h.scene([h.thing(speck, h.lambert(0, emission=1.0))], camera=camera), h.settings(width=width, height=height, samples=64))
+    image = h.pixels(
+        h.scene([h.thing(speck, h.lambert(0, emission=1.0))], camera=camera), h.settings(width=width, height=height, samples=64)
+    )
     assert image[0, place[1], place[0]] > 0
     image[0, place[1], place[0]] = 0
     assert (image[0] == 0).all()

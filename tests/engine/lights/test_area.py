@@ -27,7 +27,9 @@ def test_the_formula_for_polygons_gives_the_known_square():
     corners = [(-0.5, -0.5, 1), (0.5, -0.5, 1), (0.5, 0.5, 1), (-0.5, 0.5, 1)]
     assert polygon_irradiance(corners, (0, 0, 0), (0, 0, 1)) == pytest.approx(SQUARE, abs=1e-9)
     a = b = 0.5
-    factor = (a / math.hypot(1, a) * math.atan(b / math.hypot(1, a)) + b / math.hypot(1, b) * math.atan(a / math.hypot(1, b))) / (2 * math.pi)
+    factor = (a / math.hypot(1, a) * math.atan(b / math.hypot(1, a)) + b / math.hypot(1, b) * math.atan(a / math.hypot(1, b))) / (
+        2 * math.pi
+    )
     assert 4 * factor * math.pi == pytest.approx(SQUARE, abs=1e-9)
 
 
@@ -67,7 +69,7 @@ def random_polygon(seed):
 def polygon_world(corners):
     """The compiled world of an emissive fan of triangles with radiance 1."""
     mesh = h.Mesh(name="polygon", vertices=corners.T, triangles=np.array([(0, i, i + 1) for i in range(1, len(corners) - 1)]).T)
-    camera = h.PerspectiveCamera.look_at(corners.mean(axis=0) + (0, 0, 1), corners.mean(axis=0), up=(1, 0.1, 0))
+    camera = h.PerspectiveCamera.look_at(corners.mean(axis=0) + np.array((0, 0, 1)), corners.mean(axis=0), up=(1, 0.1, 0))
     return h.plan_of(h.scene([h.thing(mesh, h.lambert(0.5, emission=1.0))], camera=camera), h.settings()).world
 
 

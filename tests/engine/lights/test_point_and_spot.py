@@ -122,7 +122,7 @@ def test_a_stretched_spot_has_an_elliptic_cone():
 
 
 def test_bad_bulbs_and_cones_are_refused_by_name():
-    with pytest.raises(SceneError, match="light 'Lamp': radius is -1.0 m"):
+    with pytest.raises(SceneError, match=r"light 'Lamp': radius is -1\.0 m"):
         PointLight(name="Lamp", radius=-1.0).check()
     for bad in ({"angle": 0.0}, {"angle": 3.2}, {"blend": -0.1}, {"blend": 1.1}):
         with pytest.raises(SceneError, match="light 'Cone'"):

@@ -37,7 +37,6 @@ def test_orientation_is_flipped_by_an_odd_number_of_mirrors():
     assert transforms.flips_orientation(h.affine(np.diag((-1, -1, -1))))
 
 
-
 def test_look_at_has_the_axes_of_the_lecture():
     matrix = transforms.look_at((1, 2, 3), (1, 2, -5), up=(0, 1, 0))
     np.testing.assert_allclose(matrix, h.affine(np.eye(3), (1, 2, 3)), atol=1e-15)

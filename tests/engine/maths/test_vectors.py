@@ -29,7 +29,14 @@ def test_a_mirror_direction_mirrors_back():
 def test_inputs_are_not_written_to():
     a, b = h.directions(1, 10), h.directions(2, 10)
     a.flags.writeable = b.flags.writeable = False
-    vectors.dot(a, b), vectors.cross(a, b), vectors.normalize(a), vectors.reflect(a, b), vectors.cosine_power(a, b, 3.0), frames.to_world(a, b)
+    (
+        vectors.dot(a, b),
+        vectors.cross(a, b),
+        vectors.normalize(a),
+        vectors.reflect(a, b),
+        vectors.cosine_power(a, b, 3.0),
+        frames.to_world(a, b),
+    )
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])

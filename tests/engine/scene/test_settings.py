@@ -33,7 +33,9 @@ def test_a_filter_has_a_width(value):
         Settings(filter_width=value)
 
 
-@pytest.mark.parametrize("border", [(0, 0, 0, 8), (0, 0, 9, 8), (-1, 0, 8, 8), (0, 0, 8), (4, 4, 2, 8), (0.0, 0, 8, 8), (0, 5, 8, 5)], ids=str)
+@pytest.mark.parametrize(
+    "border", [(0, 0, 0, 8), (0, 0, 9, 8), (-1, 0, 8, 8), (0, 0, 8), (4, 4, 2, 8), (0.0, 0, 8, 8), (0, 5, 8, 5)], ids=str
+)
 def test_a_border_lies_inside_the_frame(border):
     with pytest.raises(SceneError, match=r"setting border is .* inside 8x8 px and not empty"):
         Settings(width=8, height=8, border=border)

@@ -88,12 +88,18 @@ LEFT_OUT = {
         h.scene([h.thing(h.quad(name="chair"), matrix=h.affine(translation=(0, np.nan, 0)))]),
         "object 'chair' is left out: its transform is not finite",
     ),
-    "light of NaN": (h.scene(lights=[PointLight(name="Lamp", intensity=(math.nan, 1, 1))]), "light 'Lamp' is left out: one of its values is not finite"),
+    "light of NaN": (
+        h.scene(lights=[PointLight(name="Lamp", intensity=(math.nan, 1, 1))]),
+        "light 'Lamp' is left out: one of its values is not finite",
+    ),
     "light of inf": (
         h.scene(lights=[AreaLight(name="Lamp", world_from_light=h.affine(translation=(math.inf, 0, 0)))]),
         "light 'Lamp' is left out: one of its values is not finite",
     ),
-    "light below zero": (h.scene(lights=[SunLight(name="Sol", irradiance=(-1.0, 0, 0))]), "light 'Sol' is left out: it would take light away"),
+    "light below zero": (
+        h.scene(lights=[SunLight(name="Sol", irradiance=(-1.0, 0, 0))]),
+        "light 'Sol' is left out: it would take light away",
+    ),
 }
 
 
@@ -140,7 +146,18 @@ def test_a_scene_that_is_fine_is_not_touched():
         h.scene([h.thing(h.quad(), matrix=h.affine(1e-30 * np.eye(3)))], [PointLight()]),
         h.scene([h.thing(h.quad((3, -4, 2), (1, 0, 0), (0, 1, 0)))], [PointLight()]),
     ],
-    ids=["nothing", "world", "lights", "no light", "no material", "no triangle", "loose points", "zero scale", "1e-30", "camera in a surface"],
+    ids=[
+        "nothing",
+        "world",
+        "lights",
+        "no light",
+        "no material",
+        "no triangle",
+        "loose points",
+        "zero scale",
+        "1e-30",
+        "camera in a surface",
+    ],
 )
 def test_poor_scenes_render_without_a_word(scene):
     """J14, J16: what is there, else black."""

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 import glanz
-from glanz.engine.errors import AccelError
 from glanz.engine.constants import EPS32
+from glanz.engine.errors import AccelError
 from glanz.engine.world import accel as module
 from glanz.engine.world.accel import RAYS_PER_CALL, Accel
 from glanz.tests import helpers as h
@@ -37,6 +37,7 @@ def random_rays(n, seed=2, scale=1.0):
 
 def moeller_trumbore(v0, e1, e2, o, d):
     """(t, u, v) by Cramer's rule, for numbers of any kind with exact or rounded arithmetic."""
+
     def cross(a, b):
         return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
@@ -90,7 +91,9 @@ def check_points(point_of, n=400):
     lanes = np.nonzero(hits.prim >= 0)[0]
     assert lanes.size > n / 4
     v0, e1, e2 = corners(vertices, triangles, hits.prim[lanes])
-    p = point_of(hits, lanes, v0.astype(np.float32), e1.astype(np.float32), e2.astype(np.float32), o[:, lanes], d[:, lanes]).astype(np.float64)
+    p = point_of(hits, lanes, v0.astype(np.float32), e1.astype(np.float32), e2.astype(np.float32), o[:, lanes], d[:, lanes]).astype(
+        np.float64
+    )
     normal = np.cross(e1.T, e2.T).T
     off = np.abs(h.dots(p - v0, normal / np.linalg.norm(normal, axis=0)))
     size = np.abs(p).max(axis=0) + np.maximum(np.abs(e1), np.abs(e2)).max(axis=0)
@@ -244,7 +247,7 @@ def test_a_machine_that_does_not_tell_its_memory_is_trusted(monkeypatch):
 
 def test_a_missing_embreex_is_named_with_the_cure(monkeypatch):
     monkeypatch.setitem(sys.modules, "embreex", None)
-    with pytest.raises(AccelError, match="embreex cannot be loaded .* install the package embreex"):
+    with pytest.raises(AccelError, match=r"embreex cannot be loaded .* install the package embreex"):
         module._embreex()
 
 
@@ -306,7 +309,7 @@ ROWS = {
     "limits of float64": "refused(lambda: a.occluded(O, D, FAR.astype(float)))",
     "index beyond the vertices": "refused(lambda: Accel(V, T + 1))",
     "negative index": "refused(lambda: Accel(V, T - 1))",
-    "index of 2^31 and more": "refused(lambda: Accel(V, T.astype(np.int64) + 2**40)); refused(lambda: Accel(V, T.astype(np.int64) * 2**31))",
+    "index of 2^31 and more": "L = T.astype(np.int64); refused(lambda: Accel(V, L + 2**40)); refused(lambda: Accel(V, L * 2**31))",
     "float and complex indices": "refused(lambda: Accel(V, T.astype(float))); refused(lambda: Accel(V, T.astype(complex)))",
     "float64 vertices": "refused(lambda: Accel(V.astype(float), T))",
     "vertices that are not finite": """
@@ -314,7 +317,7 @@ ROWS = {
             v = V.copy(); v[0, 0] = bad
             assert (Accel(v, T).closest(O, D).prim == -1).all()
         """,
-    "wrong number of dimensions": "refused(lambda: Accel(V[0], T)); refused(lambda: Accel(V, T[0])); refused(lambda: a.closest(O[0], D[0]))",
+    "wrong number of dimensions": "for c in (lambda: Accel(V[0], T), lambda: Accel(V, T[0]), lambda: a.closest(O[0], D[0])): refused(c)",
     "float64 rays": "refused(lambda: a.closest(O.astype(float), D.astype(float)))",
     "lists": "refused(lambda: a.closest(O.tolist(), D.tolist())); refused(lambda: Accel(V.tolist(), T.tolist()))",
     "big-endian": "refused(lambda: a.closest(O.astype('>f4'), D.astype('>f4'))); refused(lambda: Accel(V.astype('>f4'), T))",
@@ -365,7 +368,9 @@ def test_bad_input_is_refused_or_answered_and_kills_no_process(row):
     code = PRELUDE + textwrap.dedent(ROWS[row]) + "\nprint('survived')\n"
     # The package is found where this process has found it.
     path = os.pathsep.join([*glanz_parent(), *filter(None, [os.environ.get("PYTHONPATH")])])
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120, env={**os.environ, "PYTHONPATH": path}, check=False)
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, timeout=120, env={**os.environ, "PYTHONPATH": path}, check=False
+    )
     assert done.returncode == 0, done.stderr
     assert done.stdout.strip() == "survived", done.stderr
 

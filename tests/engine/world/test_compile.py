@@ -18,7 +18,13 @@ def render_space(world, p):
 
 @pytest.mark.parametrize(
     "linear",
-    [np.eye(3), np.diag((-1.0, 1, 1)), h.rotation(1) @ np.diag((1e-3, 1, 1e3)), h.rotation(2) @ np.diag((1.0, -2, 3)), [[1, 2, 0], [0, 1, 3], [0, 0, 1]]],
+    [
+        np.eye(3),
+        np.diag((-1.0, 1, 1)),
+        h.rotation(1) @ np.diag((1e-3, 1, 1e3)),
+        h.rotation(2) @ np.diag((1.0, -2, 3)),
+        [[1, 2, 0], [0, 1, 3], [0, 0, 1]],
+    ],
     ids=["still", "mirrored", "stretched", "mirrored and stretched", "sheared"],
 )
 def test_outside_stays_outside(linear):
@@ -79,7 +85,9 @@ def test_objects_without_a_material_are_black():
 
 
 def test_emissive_triangles_come_last_and_keep_their_radiance():
-    world = world_of(h.thing(h.box(), h.lambert(0.5, "lamp", (3, 2, 1))), h.thing(h.icosphere(0, centre=(0, 0, 3)), h.lambert(0.5, "floor")))
+    world = world_of(
+        h.thing(h.box(), h.lambert(0.5, "lamp", (3, 2, 1))), h.thing(h.icosphere(0, centre=(0, 0, 3)), h.lambert(0.5, "floor"))
+    )
     assert world.triangles.first_emitter == 20
     assert (world.triangles.material[20:] == world.triangles.material[-1]).all()
     k = world.emitters.k
@@ -97,7 +105,10 @@ def test_instances_share_their_mesh_and_keep_their_places():
 
 
 def test_a_flat_transform_gives_no_surface_and_no_crash():
-    world = world_of(h.thing(h.box(), matrix=h.affine(np.zeros((3, 3)), (1, 1, 1))), h.thing(h.icosphere(1, smooth=True), matrix=h.affine(np.diag((1.0, 1, 0)))))
+    world = world_of(
+        h.thing(h.box(), matrix=h.affine(np.zeros((3, 3)), (1, 1, 1))),
+        h.thing(h.icosphere(1, smooth=True), matrix=h.affine(np.diag((1.0, 1, 0)))),
+    )
     assert np.isfinite(world.triangles.shape).all()
 
 

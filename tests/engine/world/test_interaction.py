@@ -19,7 +19,9 @@ def spawned(seed, distance, stretch=1.0, offset=(0, 0, 0), n=50_000):
     offset = np.array(offset, float)
     eye = offset + turn @ (0.3, 0.2, 1.0) * distance
     camera = h.PerspectiveCamera.look_at(eye, offset, up=turn[:, 0])
-    world = h.plan_of(h.scene([h.thing(h.quad(offset, turn[:, 0] * stretch, turn[:, 1] + 0.3 * turn[:, 0] * stretch))], camera=camera), h.settings()).world
+    world = h.plan_of(
+        h.scene([h.thing(h.quad(offset, turn[:, 0] * stretch, turn[:, 1] + 0.3 * turn[:, 0] * stretch))], camera=camera), h.settings()
+    ).world
     u, v = rng.random((2, n), np.float32)
     outside = u + v > 1
     u[outside], v[outside] = 1 - u[outside], 1 - v[outside]
