@@ -23,13 +23,14 @@ class Columns(SimpleNamespace):
 
 
 def columns(rows, dtype=np.float32):
-    """Stack `rows`, a sequence of {name: number or 3-tuple}, into one table of `dtype`."""
-    return Columns(
-        **{
-            name: np.ascontiguousarray(np.array([row[name] for row in rows], dtype=dtype).T)
-            for name in (rows[0] if rows else ())
-        }
-    )
+    """Stack `rows`, a sequence of {name: number or 3-tuple}, into one table of `dtype`; what it cannot hold is inf."""
+    with np.errstate(over="ignore"):
+        return Columns(
+            **{
+                name: np.ascontiguousarray(np.array([row[name] for row in rows], dtype=dtype).T)
+                for name in (rows[0] if rows else ())
+            }
+        )
 
 
 def frozen(array, dtype, shape, subject, name):

@@ -58,6 +58,8 @@ class CompiledWorld:
     warnings: tuple
 
 
+# Corners may be anything; what is not finite after all is found by `_measure` and told.
+@np.errstate(over="ignore", invalid="ignore")
 def compile_world(scene, bsdfs, smooth, has_choice):
     """`scene` (validated) as a `CompiledWorld`.
 
@@ -122,21 +124,19 @@ def _merge(parts, origin):
     vertices = _concatenate([part.vertices for part in parts], (3, 0))
     counts = np.cumsum([0] + [part.vertices.shape[1] for part in parts])
     indices = _concatenate([part.triangles + start for part, start in zip(parts, counts)], (3, 0)).astype(np.int32)
-    with np.errstate(over="ignore", invalid="ignore"):
-        frame = Frame.around(origin, length(vertices - origin[:, None]))
-        # Rounded once; from here on the rounded values are the geometry, for Embree and for everything else.
-        return frame, frame.points(vertices).astype(np.float32), indices
+    frame = Frame.around(origin, length(vertices - origin[:, None]))
+    # Rounded once; from here on the rounded values are the geometry, for Embree and for everything else.
+    return frame, frame.points(vertices).astype(np.float32), indices
 
 
 def _measure(vertices, indices):
     """Corners (3 coordinates, 3, F), twice the area (F,), unit normals (3, F), and which triangles are usable (F,)."""
     corners = vertices.take(indices, axis=1)
-    with np.errstate(over="ignore", invalid="ignore"):
-        usable = (np.abs(corners) < FARTHEST).all(axis=(0, 1))  # false for NaN
-        exact = corners.astype(np.float64)
-        normal = cross(exact[:, 1] - exact[:, 0], exact[:, 2] - exact[:, 0])
-        double_area = length(normal)
-        return corners, double_area, (normal / np.maximum(double_area, np.finfo(np.float64).tiny)).astype(np.float32), usable
+    usable = (np.abs(corners) < FARTHEST).all(axis=(0, 1))  # false for NaN
+    exact = corners.astype(np.float64)
+    normal = cross(exact[:, 1] - exact[:, 0], exact[:, 2] - exact[:, 0])
+    double_area = length(normal)
+    return corners, double_area, (normal / np.maximum(double_area, np.finfo(np.float64).tiny)).astype(np.float32), usable
 
 
 def _report_unusable(usable):
