@@ -5,7 +5,9 @@ Build a `Scene` from arrays, ask `Requirements.of` what it needs, iterate `rende
 """
 
 from . import bsdfs, cameras, filters, integrators, lights, passes, samplers  # noqa: F401 - fills the registries
+from .bsdfs.dielectric import Dielectric
 from .bsdfs.lambert import Lambert
+from .bsdfs.mirror import Mirror
 from .bsdfs.phong import Phong
 from .cameras.perspective import PerspectiveCamera
 from .constants import VERSION
@@ -29,12 +31,14 @@ __all__ = [
     "PASSES",
     "SAMPLERS",
     "AreaLight",
+    "Dielectric",
     "FileError",
     "GlanzError",
     "Image",
     "Lambert",
     "Material",
     "Mesh",
+    "Mirror",
     "Object",
     "PerspectiveCamera",
     "Phong",

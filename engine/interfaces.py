@@ -7,14 +7,21 @@ from typing import Protocol, runtime_checkable
 
 
 @runtime_checkable
-class Bsdf(Protocol):
-    """A reflection lobe about the shading normal `n` (3, N); `wo`, `wi` (3, N) are unit and leave the surface.
+class Lobe(Protocol):
+    """What all BSDFs have in common; `Bsdf` and `SpecularBsdf` say how they scatter.
 
-    What is asked for is reflection: `eval` says nothing of wi below the horizon of `n`, where callers take f as 0.
+    is_specular  light leaves in single directions, and shadow rays cannot find it
+    transmits    light may pass the surface
     """
 
     key: str
     label: str
+    is_specular: bool
+    transmits: bool
+
+    @classmethod
+    def black(cls):
+        """The lobe that does nothing, for materials without it."""
 
     def row(self):
         """The parameters as {column: number or 3-tuple}."""
@@ -23,7 +30,15 @@ class Bsdf(Protocol):
         """Raises SceneError, naming the material `owner`, for parameters out of range."""
 
     def albedo(self):
-        """An upper bound, and the usual share, of reflected light (r, g, b), by which lobes are chosen."""
+        """An upper bound, and the usual share, of light that goes on (r, g, b), by which lobes are chosen."""
+
+
+@runtime_checkable
+class Bsdf(Lobe, Protocol):
+    """A reflection lobe about the shading normal `n` (3, N); `wo`, `wi` (3, N) are unit and leave the surface.
+
+    What is asked for is reflection: `eval` says nothing of wi below the horizon of `n`, where callers take f as 0.
+    """
 
     @staticmethod
     def eval(k, n, wo, wi):
@@ -36,6 +51,15 @@ class Bsdf(Protocol):
     @staticmethod
     def pdf(k, n, wo, wi):
         """Density of `sample` over solid angle [sr^-1], (N,)."""
+
+
+@runtime_checkable
+class SpecularBsdf(Lobe, Protocol):
+    """A lobe without width: a mirror, a smooth boundary. `n` (3, N) is on the side of `wo`."""
+
+    @staticmethod
+    def scatter(k, n, wo, is_front, u1):
+        """Directions wi (3, N), and weight = f |cos| / probability (3, N); `is_front` (N,) says on which side wo is."""
 
 
 @runtime_checkable

@@ -11,7 +11,7 @@ from .wavefront.emission import add_emission
 from .wavefront.escape import add_background, add_light_hits
 from .wavefront.numbers import Numbers, one_of_the_lobes, only_lobe
 from .world.compile import CompiledWorld, compile_world
-from .world.interaction import flat_normals, smooth_normals
+from .world.interaction import flat_normals, leave_in_front, leave_on_either_side, smooth_normals
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -38,6 +38,7 @@ class Plan:
     scatter: object
     shading_normals: object
     choose_lobe: object
+    leave: object
     last_depth: int
 
     @classmethod
@@ -52,7 +53,7 @@ class Plan:
             *((add_light_hits,) if needs.LIGHT_HITS in requirements else ()),
             *((add_emission,) if needs.EMISSIVE_MESHES in requirements and world.emitters.count else ()),
         )
-        on_surface = (add_direct_light,) if can_reflect and not world.lights.is_empty else ()
+        on_surface = (add_direct_light,) if world.materials.rough_lobes and not world.lights.is_empty else ()
         chosen = tuple(PASSES[key] for key in settings.passes)
         return cls(
             settings=settings,
@@ -68,6 +69,7 @@ class Plan:
             scatter=INTEGRATORS[settings.integrator].scatter,
             shading_normals=smooth_normals if smooth else flat_normals,
             choose_lobe=one_of_the_lobes if len(world.materials.lobes) > 1 else only_lobe,
+            leave=leave_on_either_side if any(lobe.bsdf.transmits for lobe in world.materials.lobes) else leave_in_front,
             # Scattered rays that could find no light need not be traced after the last bounce.
             last_depth=settings.max_depth + bool(on_rays) if can_reflect else 0,
         )

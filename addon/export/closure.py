@@ -4,10 +4,10 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ...engine import Lambert, Phong
+from ...engine import Dielectric, Lambert, Mirror, Phong
 
 SHARPEST_EXPONENT = 1e6
-"""The engine's sharpest Phong lobe, 0.1 degrees wide: the nearest that it comes to a mirror."""
+"""The engine's sharpest Phong lobe, 0.1 degrees wide; what would be sharper (roughness below 0.0376) is a mirror."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,23 +31,39 @@ class Closure:
 
 
 def scaled_lobe(lobe, factor):
-    """`lobe` with its reflectance times `factor`."""
-    return replace(lobe, reflectance=tuple(float(c) for c in np.multiply(lobe.reflectance, factor)))
+    """`lobe` with its colours times `factor`."""
+    return _with_colours(lobe, (np.multiply(colour, factor) for colour in _colours(lobe)))
+
+
+def _colours(lobe):
+    return [getattr(lobe, name) for name in ("reflectance", "transmittance") if hasattr(lobe, name)]
+
+
+def _with_colours(lobe, colours):
+    names = [name for name in ("reflectance", "transmittance") if hasattr(lobe, name)]
+    return replace(lobe, **{name: tuple(float(c) for c in colour) for name, colour in zip(names, colours, strict=True)})
 
 
 def merged(lobes):
     """The fewest lobes with the same sum: equal shapes added up, black ones left out."""
     sums = {}
     for lobe in lobes:
-        shape = replace(lobe, reflectance=(0.0, 0.0, 0.0))
-        sums[shape] = sums.get(shape, np.zeros(3)) + lobe.reflectance
-    return tuple(replace(shape, reflectance=tuple(float(c) for c in total)) for shape, total in sums.items() if total.any())
+        colours = np.array(_colours(lobe), np.float64)
+        shape = _with_colours(lobe, np.zeros_like(colours))
+        sums[shape] = sums.get(shape, 0) + colours
+    return tuple(_with_colours(shape, total) for shape, total in sums.items() if total.any())
 
 
 def phong_exponent(roughness):
-    """The Phong exponent n = 2 / alpha^2 - 2 with alpha = roughness^2, from mirror-like 0 to uniform 1 of Blender's roughness."""
+    """The Phong exponent n = 2 / alpha^2 - 2 with alpha = roughness^2, from inf at 0 to 0 at 1 of Blender's roughness."""
     alpha2 = min(max(roughness, 0.0), 1.0) ** 4
-    return min(2 / alpha2 - 2, SHARPEST_EXPONENT) if alpha2 > 0 else SHARPEST_EXPONENT
+    return 2 / alpha2 - 2 if alpha2 > 0 else np.inf
+
+
+def glossy_lobe(colour, roughness):
+    """The lobe of Blender's `roughness`: Phong, or a mirror where that would be too sharp."""
+    exponent = phong_exponent(roughness)
+    return Phong(tuple(colour), exponent) if exponent <= SHARPEST_EXPONENT else Mirror(tuple(colour))
 
 
 def diffuse(colour):
@@ -57,7 +73,12 @@ def diffuse(colour):
 
 def glossy(colour, roughness):
     """A glossy lobe of `colour` (r, g, b)."""
-    return Closure((Phong(tuple(colour), phong_exponent(roughness)),))
+    return Closure((glossy_lobe(colour, roughness),))
+
+
+def glass(colour, ior):
+    """A smooth boundary that tints what it reflects and what passes it by `colour` (r, g, b)."""
+    return Closure((Dielectric(ior, tuple(colour), tuple(colour)),))
 
 
 def emission(colour, strength):

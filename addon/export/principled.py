@@ -1,34 +1,38 @@
-"""The Principled BSDF as one diffuse and one glossy lobe: pure functions of its numbers.
+"""The Principled BSDF as a diffuse, a glossy and a clear lobe: pure functions of its numbers.
 
-Blender's model is a metal (share m, colour c) beside a dielectric coat over a diffuse base of the same colour. The
-engine's lobes have reflectances that do not depend on the angle, so the coat reflects its average over a cosine-
-weighted hemisphere F, and the base receives the rest:
+Blender's model is a metal (share m, colour c) beside what is no metal: glass (share t), or a dielectric coat over a
+diffuse base of the same colour. The engine's Phong and Lambert lobes have reflectances that do not depend on the angle,
+so the coat reflects its average over a cosine-weighted hemisphere F, and the base receives the rest:
 
-    glossy   m c + (1 - m) F tint
-    diffuse  (1 - m) (1 - F) c                 (F: its largest channel, so that nothing is reflected twice)
+    glossy   m c + (1 - m) (1 - t) F tint
+    diffuse  (1 - m) (1 - t) (1 - F) c         (F: its largest channel, so that nothing is reflected twice)
+    clear    (1 - m) t, exact Fresnel; what passes is tinted by sqrt(c), as light passes twice
 
-Their sum is at most 1 for c and tint in [0, 1]: m c + (1 - m) (F + (1 - F) c) <= 1. What is lost against Blender is
-the brighter rim at grazing angles; what is kept is the light that leaves the surface under even light.
+Their sum is at most 1 for c and tint in [0, 1]: m c + (1 - m) (F + (1 - F) c) <= 1 where t = 0. What is lost against
+Blender is the brighter rim at grazing angles; what is kept is the light that leaves the surface under even light.
 """
 
 from functools import lru_cache
 
 import numpy as np
 
-from ...engine import Lambert, Phong
-from .closure import phong_exponent
+from ...engine import Dielectric, Lambert
+from .closure import glossy_lobe
 
 _ANGLES = 2048
 
 
-def principled_lobes(base, metallic, roughness, ior, specular_level, tint=(1.0, 1.0, 1.0)):
-    """(Lambert, Phong) of a Principled BSDF; base and tint (r, g, b), all but `ior` in [0, 1]."""
+def principled_lobes(base, metallic, roughness, ior, specular_level, tint=(1.0, 1.0, 1.0), transmission=0.0):
+    """The lobes of a Principled BSDF, diffuse, glossy and, where it transmits, clear; all but `ior` in [0, 1]."""
     base = np.clip(np.array(base, np.float64), 0, 1)
     m = min(max(metallic, 0.0), 1.0)
     coat = average_fresnel(effective_ior(ior, specular_level)) * np.clip(np.array(tint, np.float64), 0, 1)
-    lambert = (1 - m) * (1 - coat.max()) * base
-    phong = m * base + (1 - m) * coat
-    return Lambert(tuple(lambert.tolist())), Phong(tuple(phong.tolist()), phong_exponent(roughness))
+    t = min(max(transmission, 0.0), 1.0)
+    lambert = (1 - m) * (1 - t) * (1 - coat.max()) * base
+    glossy = m * base + (1 - m) * (1 - t) * coat
+    clear = (1 - m) * t
+    lobes = (Lambert(tuple(lambert.tolist())), glossy_lobe(glossy.tolist(), roughness))
+    return (*lobes, Dielectric(ior, (clear,) * 3, tuple((clear * np.sqrt(base)).tolist()))) if clear > 0 else lobes
 
 
 def effective_ior(ior, specular_level):

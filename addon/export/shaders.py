@@ -53,6 +53,13 @@ def _glossy(reader, node):
     return closure.glossy(reader.colour(node, "Color"), reader.number(node, "Roughness"))
 
 
+def _glass(reader, node):
+    _note_normal(reader, node)
+    if reader.is_linked(node, "Roughness") or reader.number(node, "Roughness") > 0:
+        reader.note("Roughness of Glass BSDF is left out, it is rendered smooth")
+    return closure.glass(reader.colour(node, "Color"), reader.number(node, "IOR", 1.5))
+
+
 def _emission(reader, node):
     return closure.emission(reader.colour(node, "Color"), reader.number(node, "Strength"))
 
@@ -77,7 +84,6 @@ def _mix(reader, node):
 
 _LEFT_OUT = {
     "Subsurface Weight": "Subsurface of Principled BSDF is rendered as diffuse",
-    "Transmission Weight": "Transmission of Principled BSDF is rendered opaque",
     "Coat Weight": "Coat of Principled BSDF is left out",
     "Sheen Weight": "Sheen of Principled BSDF is left out",
     "Anisotropic": "Anisotropy of Principled BSDF is left out",
@@ -94,6 +100,9 @@ def _principled(reader, node):
             reader.note(note)
     if reader.is_linked(node, "Alpha") or reader.number(node, "Alpha", 1.0) < 1:
         reader.note("Alpha of Principled BSDF is rendered opaque")
+    transmission = reader.number(node, "Transmission Weight")
+    if transmission > 0 and reader.number(node, "Roughness") > 0:
+        reader.note("Roughness of what passes a Principled BSDF is left out, it is rendered smooth")
     lobes = principled_lobes(
         reader.colour(node, "Base Color"),
         reader.number(node, "Metallic"),
@@ -101,6 +110,7 @@ def _principled(reader, node):
         reader.number(node, "IOR", 1.5),
         reader.number(node, "Specular IOR Level", 0.5),
         reader.colour(node, "Specular Tint", _WHITE),
+        transmission,
     )
     shine = closure.emission(reader.colour(node, "Emission Color"), reader.number(node, "Emission Strength"))
     return Closure(lobes, np.asarray(shine.emission))
@@ -110,6 +120,7 @@ _TABLE = {
     "BSDF_PRINCIPLED": _principled,
     "BSDF_DIFFUSE": _diffuse,
     "BSDF_GLOSSY": _glossy,
+    "BSDF_GLASS": _glass,
     "BSDF_TRANSPARENT": _transparent,
     "EMISSION": _emission,
     "BACKGROUND": _emission,

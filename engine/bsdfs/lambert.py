@@ -18,8 +18,14 @@ class Lambert:
 
     key = "lambert"
     label = "Lambert"
+    is_specular = False
+    transmits = False
 
     reflectance: tuple = (0.8, 0.8, 0.8)
+
+    @classmethod
+    def black(cls):
+        return cls((0.0, 0.0, 0.0))
 
     def row(self):
         return {"reflectance": self.reflectance}

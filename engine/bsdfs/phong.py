@@ -29,9 +29,15 @@ class Phong:
 
     key = "phong"
     label = "Phong"
+    is_specular = False
+    transmits = False
 
     reflectance: tuple = (0.8, 0.8, 0.8)
     exponent: float = 32.0
+
+    @classmethod
+    def black(cls):
+        return cls((0.0, 0.0, 0.0))
 
     def row(self):
         return {"reflectance": self.reflectance, "exponent": self.exponent}

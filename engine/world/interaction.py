@@ -19,6 +19,7 @@ class Surface:
     wo        (3, M) unit, towards the viewer
     n, ns     (3, M) geometric and shading normal, unit, both on the side of wo
     o         (3, M) where reflected rays start: p, lifted off the triangle along n
+    is_front  (M,) bool: the viewer is on the front, by winding
     prim      (M,) triangles
     material  (M,) rows of the materials
     """
@@ -28,6 +29,7 @@ class Surface:
     n: np.ndarray
     ns: np.ndarray
     o: np.ndarray
+    is_front: np.ndarray
     prim: np.ndarray
     material: np.ndarray
 
@@ -76,4 +78,14 @@ def interact(triangles, shading_normals, d, hits):
     offset += triangles.extent.take(prim)
     offset *= np.float32(START_ULPS * EPS32)
     ns = shading_normals(triangles, prim, u, v, n, sign)
-    return Surface(p, wo, n, ns, p + offset * n, prim, triangles.material.take(prim))
+    return Surface(p, wo, n, ns, p + offset * n, sign > 0, prim, triangles.material.take(prim))
+
+
+def leave_in_front(surface, wi):
+    """Origins (3, M) of rays that go on along wi, where all stay on the viewer's side."""
+    return surface.o
+
+
+def leave_on_either_side(surface, wi):
+    """Origins (3, M) of rays that go on along wi, lifted off the triangle to the side of wi."""
+    return surface.p + np.copysign(np.float32(1), dot(surface.n, wi)) * (surface.o - surface.p)

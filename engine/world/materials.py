@@ -6,6 +6,7 @@ import numpy as np
 
 from ..arrays import Columns, columns
 from ..constants import LUMINANCE
+from ..maths.vectors import dot
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,7 +21,7 @@ class Lobe:
 class Materials:
     """All materials of a world.
 
-    lobes       one `Lobe` for each BSDF and for each further lobe of the same BSDF that some material has
+    lobes       one `Lobe` for each BSDF and for each further lobe of the same BSDF that some material has; specular ones last
     thresholds  (lobes - 1, M) float32: a material samples the lobe whose interval of [0, 1) holds u1
     shares      (lobes, M) float32: the probability of each lobe, in proportion to its albedo
     emission    (3, M) float32 [W m^-2 sr^-1]
@@ -34,11 +35,11 @@ class Materials:
     @classmethod
     def of(cls, materials, bsdfs):
         """Compile `materials`; `bsdfs` are the plug-ins to make room for, wanted or not."""
+        bsdfs = sorted(bsdfs, key=lambda bsdf: bsdf.is_specular)
         slots = [(bsdf, i) for bsdf in bsdfs for i in range(max(1, max(_count(m, bsdf) for m in materials)))]
         lobes, albedos = [], np.zeros((len(slots), len(materials)))
         for slot, (bsdf, i) in enumerate(slots):
-            black = bsdf(reflectance=(0.0, 0.0, 0.0))
-            chosen = [next(iter([lobe for lobe in m.lobes if type(lobe) is bsdf][i:]), black) for m in materials]
+            chosen = [next(iter([lobe for lobe in m.lobes if type(lobe) is bsdf][i:]), bsdf.black()) for m in materials]
             lobes.append(Lobe(bsdf, columns([lobe.row() for lobe in chosen])))
             albedos[slot] = [np.dot(LUMINANCE, lobe.albedo()) for lobe in chosen]
         total = albedos.sum(axis=0)
@@ -47,17 +48,21 @@ class Materials:
         emission = np.array([m.emission for m in materials], np.float32).T.reshape(3, -1)
         return cls(tuple(lobes), thresholds, shares, emission)
 
+    @property
+    def rough_lobes(self):
+        """How many lobes have a width, and so can be reached by shadow rays."""
+        return sum(not lobe.bsdf.is_specular for lobe in self.lobes)
+
     def at(self, material):
         """The `Reflection` of surface points whose materials are `material` (N,)."""
-        if self.emission.shape[1] == 1:  # one row broadcasts over all lanes
-            return Reflection(tuple(lobe.bsdf for lobe in self.lobes), tuple(lobe.k for lobe in self.lobes), self.thresholds, self.shares)
-        several = len(self.lobes) > 1
-        return Reflection(
-            tuple(lobe.bsdf for lobe in self.lobes),
-            tuple(lobe.k.take(material) for lobe in self.lobes),
-            self.thresholds.take(material, axis=1) if several else self.thresholds,
-            self.shares.take(material, axis=1) if several else self.shares,
-        )
+        lobes = self.lobes
+        # One row broadcasts over all lanes.
+        if self.emission.shape[1] > 1:
+            lobes = [Lobe(lobe.bsdf, lobe.k.take(material)) for lobe in lobes]
+        thresholds, shares = self.thresholds, self.shares
+        if len(lobes) > 1 and self.emission.shape[1] > 1:
+            thresholds, shares = thresholds.take(material, axis=1), shares.take(material, axis=1)
+        return Reflection(tuple(lobes[: self.rough_lobes]), tuple(lobes[self.rough_lobes :]), thresholds, shares)
 
 
 def _count(material, bsdf):
@@ -66,38 +71,82 @@ def _count(material, bsdf):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Reflection:
-    """The lobes of N surface points: a BSDF again, the sum of them.
+    """The lobes of N surface points, added up.
 
-    `eval` adds the lobes up; `sample` chooses one by its share; `pdf` is the density of doing both.
+    rough       lobes with a width: together a BSDF, of which `eval` is the sum and `pdf` the density of `sample`
+    specular    lobes without: what they do is known only by doing it
+    thresholds, shares as in `Materials`, a column for each point or one for all
     """
 
-    bsdfs: tuple
-    k: tuple
+    rough: tuple
+    specular: tuple
     thresholds: np.ndarray
     shares: np.ndarray
 
     def eval(self, n, wo, wi):
-        """f [sr^-1], (3, N), and pdf [sr^-1], (N,), of wi."""
-        first, *others = range(len(self.bsdfs))
-        f = self.bsdfs[first].eval(self.k[first], n, wo, wi)
-        pdf = self.bsdfs[first].pdf(self.k[first], n, wo, wi)
-        if others:
-            pdf = pdf * self.shares[first]
-        for i in others:
-            f = f + self.bsdfs[i].eval(self.k[i], n, wo, wi)
-            pdf += self.bsdfs[i].pdf(self.k[i], n, wo, wi) * self.shares[i]
+        """f [sr^-1], (3, N), and pdf [sr^-1], (N,), of wi, by the rough lobes."""
+        f, pdf = 0, 0
+        for lobe, share in zip(self.rough, self.shares):
+            f = f + lobe.bsdf.eval(lobe.k, n, wo, wi)
+            density = lobe.bsdf.pdf(lobe.k, n, wo, wi)
+            pdf = pdf + (density if len(self.shares) == 1 else density * share)
         return f, pdf
 
-    def sample(self, n, wo, u1, u2):
-        """Directions wi (3, N); u1 (N,) chooses the lobe (None where there is but one), u2 (2, N) the direction."""
-        wi = self.bsdfs[0].sample(self.k[0], n, wo, u2)
-        for i, threshold in enumerate(self.thresholds, start=1):
-            # Later lobes overwrite earlier ones, so the last threshold passed decides.
-            lanes = np.nonzero(np.broadcast_to(u1 >= threshold, u2.shape[1:]))[0]
-            k = self.k[i] if self._is_shared(self.k[i]) else self.k[i].take(lanes)
-            wi[:, lanes] = self.bsdfs[i].sample(k, n.take(lanes, axis=1), wo.take(lanes, axis=1), u2.take(lanes, axis=1))
+    def scatter(self, surface, u1, u2):
+        """One direction on from each point of `surface`: wi (3, N), weight = f |cos| / pdf (3, N), and pdf (N,).
+
+        u1 (N,) chooses the lobe (None where there is but one), u2 (2, N) the direction. The pdf of a specular lobe is
+        inf: nothing else can find what it finds. The weight is 0, or not a number, where nothing goes on.
+        """
+        if self.rough:
+            wi = self._sample_rough(surface.ns, surface.wo, u1, u2)
+            f, pdf = self.eval(surface.ns, surface.wo, wi)
+            cos = dot(surface.ns, wi)
+            # Below the geometric surface there is nothing to reflect into; such paths end, and still count.
+            weight = f * (cos * ((cos > 0) & (dot(surface.n, wi) > 0)) / pdf)
+        else:
+            wi, weight, pdf = np.zeros_like(surface.wo), np.zeros_like(surface.wo), np.zeros_like(surface.wo[0])
+        for i, lobe in enumerate(self.specular, start=len(self.rough)):
+            lanes = self._chosen(i, u1, u2)
+            wi[:, lanes], turned = _scatter_specular(lobe, surface, lanes, u2[0].take(lanes))
+            weight[:, lanes] = turned / (np.broadcast_to(self.shares[i], pdf.shape).take(lanes) if u1 is not None else 1)
+            pdf[lanes] = np.inf
+        return wi, weight, pdf
+
+    def _sample_rough(self, n, wo, u1, u2):
+        first = self.rough[0]
+        wi = first.bsdf.sample(first.k, n, wo, u2)
+        for i, lobe in enumerate(self.rough[1:], start=1):
+            lanes = self._chosen(i, u1, u2)
+            wi[:, lanes] = lobe.bsdf.sample(_rows(lobe.k, lanes), n.take(lanes, axis=1), wo.take(lanes, axis=1), u2.take(lanes, axis=1))
         return wi
 
-    @staticmethod
-    def _is_shared(k):
-        return all(column.shape[-1] == 1 for column in vars(k).values())
+    def _chosen(self, i, u1, u2):
+        """The lanes whose u1 falls to lobe i."""
+        n = u2.shape[1]
+        if u1 is None:
+            return np.arange(n)
+        is_chosen = np.ones(n, bool) if i == 0 else u1 >= self.thresholds[i - 1]
+        if i < len(self.thresholds):
+            is_chosen = is_chosen & (u1 < self.thresholds[i])
+        return np.nonzero(is_chosen)[0]
+
+
+def _scatter_specular(lobe, surface, lanes, u1):
+    n, ns, wo = (a.take(lanes, axis=1) for a in (surface.n, surface.ns, surface.wo))
+    k, is_front = _rows(lobe.k, lanes), surface.is_front.take(lanes)
+    wi, weight = lobe.bsdf.scatter(k, ns, wo, is_front, u1)
+    # Where the shading normal is turned away, or would send reflected light through the surface or refracted light
+    # back, the geometric one decides: specular light has no other way to go, and would be lost.
+    astray = np.nonzero((dot(ns, wo) <= 0) | ((dot(n, wi) > 0) != (dot(ns, wi) > 0)))[0]
+    if astray.size:
+        weight = np.array(np.broadcast_to(weight, wi.shape))
+        wi[:, astray], weight[:, astray] = lobe.bsdf.scatter(
+            _rows(k, astray), n.take(astray, axis=1), wo.take(astray, axis=1), is_front.take(astray), u1.take(astray)
+        )
+    return wi, weight
+
+
+def _rows(k, lanes):
+    """The rows `lanes` of a table, or the only row that it has."""
+    return k if all(column.shape[-1] == 1 for column in vars(k).values()) else k.take(lanes)

@@ -139,7 +139,9 @@ def calls_of(monkeypatch, scene, required):
     )
     with monkeypatch.context() as patch:
         numbers = h.spy(patch, type(plan.numbers), "one")
-        evaluations = [h.spy(patch, bsdf, "eval") for bsdf in {lobe.bsdf for lobe in plan.world.materials.lobes}]
+        evaluations = [
+            h.spy(patch, bsdf, "scatter" if bsdf.is_specular else "eval") for bsdf in {lobe.bsdf for lobe in plan.world.materials.lobes}
+        ]
         closest = h.spy(patch, Accel, "closest")
         h.pixels_of_plan(plan)
     counts |= {"numbers": len(numbers), "evaluations": sum(map(len, evaluations)), "closest": len(closest)}

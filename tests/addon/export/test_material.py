@@ -4,7 +4,7 @@ import bpy
 import numpy as np
 import pytest
 
-from glanz.engine import Lambert, Phong
+from glanz.engine import Dielectric, Lambert, Mirror, Phong
 from glanz.tests.addon import blender
 
 
@@ -32,7 +32,7 @@ def test_diffuse():
 
 @pytest.mark.parametrize(
     ("roughness", "exponent"),
-    [(1, 0), (0.5, 2 / 0.5**4 - 2), (0.25, 2 / 0.25**4 - 2), (0.01, 1e6), (0, 1e6)],
+    [(1, 0), (0.5, 2 / 0.5**4 - 2), (0.25, 2 / 0.25**4 - 2), (0.04, 2 / 0.04**4 - 2)],
 )
 def test_glossy_roughness_becomes_the_exponent(roughness, exponent):
     material, warnings = _exported(blender.new_material("M", "ShaderNodeBsdfAnisotropic", Color=(0.9, 0.5, 0.1, 1), Roughness=roughness))
@@ -41,6 +41,41 @@ def test_glossy_roughness_becomes_the_exponent(roughness, exponent):
     assert type(lobe) is Phong
     assert lobe.reflectance == pytest.approx((0.9, 0.5, 0.1))
     assert lobe.exponent == pytest.approx(exponent, rel=1e-6)
+
+
+@pytest.mark.parametrize("roughness", [0.037, 0])
+def test_what_is_sharper_than_the_sharpest_lobe_is_a_mirror(roughness):
+    material, warnings = _exported(blender.new_material("M", "ShaderNodeBsdfAnisotropic", Color=(0.9, 0.5, 0.1, 1), Roughness=roughness))
+    assert warnings == ()
+    (lobe,) = material.lobes
+    assert type(lobe) is Mirror
+    assert lobe.reflectance == pytest.approx((0.9, 0.5, 0.1))
+
+
+def test_glass_is_a_dielectric_that_tints_both_ways():
+    material, warnings = _exported(blender.new_material("Pane", "ShaderNodeBsdfGlass", Color=(0.5, 0.6, 0.7, 1), IOR=1.33, Roughness=0))
+    assert warnings == ()
+    (lobe,) = material.lobes
+    assert type(lobe) is Dielectric
+    assert lobe.ior == pytest.approx(1.33)
+    assert lobe.reflectance == lobe.transmittance == pytest.approx((0.5, 0.6, 0.7))
+
+
+def test_rough_glass_is_smooth_and_says_so():
+    material, warnings = _exported(blender.new_material("Pane", "ShaderNodeBsdfGlass", Roughness=0.3))
+    assert type(material.lobes[0]) is Dielectric
+    assert warnings == ("Roughness of Glass BSDF is left out, it is rendered smooth: material 'Pane'",)
+
+
+def test_principled_glass_is_tinted_by_the_root_of_its_colour():
+    """Light that goes in and out again carries the base colour once, as in Blender."""
+    values = {"Base_Color": (0.25, 0.64, 1, 1), "Transmission_Weight": 1, "Roughness": 0, "IOR": 1.4}
+    material, warnings = _exported(blender.new_material("Bottle", "ShaderNodeBsdfPrincipled", **values))
+    assert warnings == ()
+    (lobe,) = material.lobes
+    assert type(lobe) is Dielectric
+    assert lobe.transmittance == pytest.approx((0.5, 0.8, 1))
+    assert lobe.reflectance == pytest.approx((1, 1, 1))
 
 
 def test_emission_is_colour_times_strength():
@@ -61,7 +96,7 @@ def test_principled_has_both_lobes_and_emission():
 @pytest.mark.parametrize(
     ("identifier", "value", "word"),
     [
-        ("Transmission_Weight", 1, "Transmission"),
+        ("Transmission_Weight", 1, "Roughness of what passes"),
         ("Coat_Weight", 0.5, "Coat"),
         ("Sheen_Weight", 0.5, "Sheen"),
         ("Subsurface_Weight", 0.5, "Subsurface"),
@@ -119,9 +154,9 @@ def test_transparency_in_a_mix_leaves_the_other_shader():
 
 
 def test_unknown_shaders_are_diffuse_in_their_colour_and_named():
-    exported, warnings = _exported(blender.new_material("Window", "ShaderNodeBsdfGlass", Color=(0.5, 0.6, 0.7, 1)))
+    exported, warnings = _exported(blender.new_material("Window", "ShaderNodeBsdfTranslucent", Color=(0.5, 0.6, 0.7, 1)))
     assert exported.lobes[0].reflectance == pytest.approx((0.5, 0.6, 0.7))
-    assert warnings == ("Glass BSDF is not supported and is rendered as Diffuse of its colour: material 'Window'",)
+    assert warnings == ("Translucent BSDF is not supported and is rendered as Diffuse of its colour: material 'Window'",)
 
 
 def test_textures_are_named_and_the_sockets_own_value_is_used():

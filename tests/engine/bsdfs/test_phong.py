@@ -1,5 +1,7 @@
 """The modified Phong lobe against closed forms (catalogue C2-C5, C8)."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from scipy import special
@@ -105,12 +107,11 @@ def test_a_mixture_weighs_and_samples_its_lobes_by_their_shares(kd, ks):
     mixed = reflection(Lambert((kd,) * 3), Phong((ks,) * 3, exponent))
     normal, wo = np.repeat(Z, n, 1).astype(np.float32), np.repeat(h.at_angle(angle, dtype=np.float32), n, 1)
     u = np.random.default_rng(4).random((3, n), np.float32)
-    wi = mixed.sample(normal, wo, u[0], u[1:])
-    f, pdf = mixed.eval(normal, wo, wi)
+    wi, weight, pdf = mixed.scatter(SimpleNamespace(n=normal, ns=normal, wo=wo), u[0], u[1:])
     assert (pdf > 0).all()
-    weight = np.where(wi[2] > 0, f[0] * wi[2] / pdf, 0)
     assert np.isfinite(weight).all()
-    assert h.mean_is(weight, kd + ks * ALBEDO[10.0][1], floor=1e-5)
+    assert (weight[:, wi[2] <= 0] == 0).all()
+    assert h.mean_is(weight[0], kd + ks * ALBEDO[10.0][1], floor=1e-5)
 
 
 def test_two_lobes_of_one_kind_add_up():

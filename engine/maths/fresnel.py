@@ -1,0 +1,38 @@
+"""Reflection and refraction at a smooth boundary; eta is the index behind the surface over that in front of it."""
+
+import numpy as np
+
+from .vectors import dot
+
+
+def refracted_cosine(cos_i, eta):
+    """The cosine (N,) of the refracted direction by Snell's law; 0 where light is totally reflected.
+
+    cos_t^2 = (eta^2 - 1 + cos_i^2) / eta^2, with eta^2 - 1 as a product: no digits are lost near the critical angle or
+    for eta near 1.
+    """
+    return np.sqrt(np.maximum((eta - 1) * (eta + 1) + cos_i * cos_i, 0)) / eta
+
+
+def fresnel_dielectric(cos_i, eta):
+    """The share (N,) of unpolarised light that a smooth dielectric reflects (Fresnel; Born & Wolf, 1.5.2, eq. 21).
+
+    cos_i (N,) in [0, 1]; exactly 1 where light is totally reflected.
+    """
+    cos_t = refracted_cosine(cos_i, eta)
+    with np.errstate(invalid="ignore"):
+        parallel = (eta * cos_i - cos_t) / (eta * cos_i + cos_t)
+        across = (cos_i - eta * cos_t) / (cos_i + eta * cos_t)
+    share = 0.5 * (parallel * parallel + across * across)
+    # Also 0 / 0, along the surface.
+    return np.where(cos_t > 0, share, 1)
+
+
+def refract(wo, n, eta):
+    """The refracted direction (3, N) of wo about n, wo on the side of n; meaningless where `refracted_cosine` is 0.
+
+    The lecture's t = -wo / eta + (cos_i / eta - cos_t) n.
+    """
+    cos_i = dot(wo, n)
+    wi = (cos_i / eta - refracted_cosine(cos_i, eta)) * n - wo / eta
+    return wi / np.sqrt(dot(wi, wi))
