@@ -9,7 +9,7 @@ import math
 import numpy as np
 import pytest
 
-from glanz.engine import AreaLight, Lambert, Material, PointLight, SpotLight, SunLight
+from glanz.engine import AreaLight, Lambert, Material, Phong, PointLight, SpotLight, SunLight
 from glanz.engine.wavefront import direct
 from glanz.engine.world.lights import Group
 from glanz.tests import helpers as h
@@ -264,6 +264,41 @@ def test_lights_without_area_or_power_give_nothing(light):
     assert irradiances(h.receiver([light])).max() == 0
     values = irradiances(h.receiver([light, POINT]), samples=2)
     np.testing.assert_allclose(values, np.broadcast_to(EXACT["point"][1][:, None], values.shape), rtol=1e-5)
+
+
+def tilted_patch(angle):
+    """A patch whose shading normals lean by `angle` towards +x."""
+    flat = h.quad((0, 0, 0), (0.01, 0, 0), (0, 0.01, 0), name="leaning")
+    normals = np.repeat(h.at_angle(angle), 4, 1)
+    return h.Mesh(name=flat.name, vertices=flat.vertices, triangles=flat.triangles, normals=normals, normal_indices=flat.triangles)
+
+
+@pytest.mark.parametrize("angle", [0.5, 1.2, 1.5])
+@pytest.mark.parametrize("material", [h.lambert(1.0), Material(name="shiny", lobes=(Phong((1.0,) * 3, 20.0),))], ids=lambda m: m.name)
+def test_leaning_normals_let_no_light_through(angle, material):
+    """C11: light from below the facet is none, though it is above the leaning normal; from above it counts by that normal."""
+    base = h.receiver(material=material)
+    patch = h.thing(tilted_patch(angle), material)
+    below = PointLight(position=tuple((2 * h.at_angle(math.pi / 2 + 0.2)).ravel()))
+    for way in ({"max_depth": 0}, {"max_depth": 3}):
+        assert h.pixels(h.replaced(base, objects=[patch], lights=[below]), h.settings(**way)).max() == 0
+    if material.name == "diffuse":
+        above = PointLight(position=tuple((2 * h.at_angle(1.0)).ravel()))
+        image = h.pixels(h.replaced(base, objects=[patch], lights=[above]), h.settings(max_depth=0))
+        np.testing.assert_allclose(image, math.cos(1.0 - angle) / 4 / math.pi, rtol=1e-5)
+
+
+@pytest.mark.parametrize("angle", [1.5, 1.6, 3.0])
+def test_normals_that_lean_past_the_view_give_no_nan(angle):
+    """C11: seen from the far side of its own normal, in a world of light: finite, and not brighter than the world."""
+    for material in (h.lambert(1.0), Material(name="shiny", lobes=(Phong((1.0,) * 3, 20.0),))):
+        scene = h.replaced(
+            h.receiver(material=material, tilt=-1.2), objects=[h.thing(tilted_patch(angle), material)], world=h.World(radiance=(1.0,) * 3)
+        )
+        image = h.pixels(scene, h.settings(samples=64, max_depth=2))
+        assert np.isfinite(image).all()
+        assert image.min() >= 0
+        assert image.mean() <= 1.001
 
 
 def test_black_reflects_nothing():

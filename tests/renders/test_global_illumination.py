@@ -53,6 +53,20 @@ def test_every_closed_mesh_is_a_furnace(monkeypatch, name):
     np.testing.assert_allclose(h.pixels_of_plan(plan), np.broadcast_to(truth, (3, 8, 8)), rtol=2e-6)
 
 
+@pytest.mark.parametrize("scale", [2.0**-40, 1e-6, 1e6, 2.0**40])
+@pytest.mark.parametrize(
+    "linear", [np.eye(3), np.diag((-1.0, 2.0, 0.5)), h.rotation(2) @ np.diag((1.0, 1.0, -30.0))], ids=["as is", "mirrored", "long"]
+)
+def test_the_furnace_does_not_depend_on_scale_or_handedness(monkeypatch, scale, linear):
+    """F1 and A14 through the transform of the object: mirrored, stretched, at each scale; each pixel to 2e-6."""
+    matrix = h.affine(scale * linear, (3 * scale, -scale, 2 * scale))
+    eye, target = (matrix[:3, :3] @ np.array(p) + matrix[:3, 3] for p in ((0.3, 0.4, 0.5), (0.9, 0.8, 0.2)))
+    camera = PerspectiveCamera.look_at(eye, target, fov=math.radians(80))
+    scene = h.scene([h.thing(h.box(), h.lambert(0.8, "wall", 1.0), matrix)], camera=camera)
+    plan = without_shadow_rays(monkeypatch, scene, h.settings(max_depth=2))
+    np.testing.assert_allclose(h.pixels_of_plan(plan), series(1.0, 0.8, 2), rtol=2e-6)
+
+
 @pytest.mark.parametrize("depth", [0, 2, 40])
 @pytest.mark.parametrize("name", ["box", "sphere"])
 def test_the_furnace_is_the_same_with_shadow_rays_and_roulette(name, depth):

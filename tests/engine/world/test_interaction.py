@@ -43,8 +43,8 @@ def self_hits(**case):
 @pytest.mark.parametrize("distance", DISTANCES)
 @pytest.mark.parametrize("offset", [0.0, 1e7])
 def test_rays_never_meet_the_surface_that_they_leave(distance, offset):
-    """A4: 0 of 7e5 over distances from 1e-6 to 1e6 sizes, near the world's origin and 1e7 away from it."""
-    assert sum(self_hits(seed=seed, distance=distance, offset=(offset, -2 * offset, offset)) for seed in range(1)) == 0
+    """A4: 0 of 1.4e6 over distances from 1e-6 to 1e6 sizes, near the world's origin and 1e7 away from it."""
+    assert sum(self_hits(seed=seed, distance=distance, offset=(offset, -2 * offset, offset)) for seed in range(2)) == 0
 
 
 def test_never_catches_rays_that_start_on_the_surface(monkeypatch):
