@@ -15,6 +15,9 @@ MOST_CLUSTERS = 32
 _DARK = 2.0**-8
 """What a light weighs where it should not shine at all, compared to where it does."""
 
+_LEAST = 2.0**-10
+"""What the weakest cluster weighs at least, compared to the strongest."""
+
 
 class OnlyLight:
     """There is one light: no choice, and no number spent."""
@@ -129,4 +132,5 @@ class ByPlace:
         along = dot(away, k.axis)
         is_lit = along * np.abs(along) >= k.cos_edge * np.abs(k.cos_edge) * distance2
         weights *= np.float32(_DARK) + np.float32(1 - _DARK) * is_lit
-        return weights
+        # The one that outshines the others by far may be hidden from here: they must be found as well.
+        return np.maximum(weights, np.float32(_LEAST) * weights.max(axis=0))

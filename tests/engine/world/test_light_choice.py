@@ -88,3 +88,15 @@ def test_lights_without_power_are_never_chosen():
     _, choice, count = choice_of([dark, *bulbs(2), h.replaced(dark, name="dark 2")], [])
     assert count == 2
     assert isinstance(choice, ByPlace)
+
+
+def test_a_weak_light_is_found_beside_one_that_outshines_it():
+    """1e-4 m from a bulb, hidden or not, a lamp of a 1e-10 of its weight there still gets 1 of 1,100 shadow rays."""
+    lights = (PointLight(position=(0, 0, 1e-4), intensity=(1, 1, 1)), PointLight(position=(0, 0, 10), intensity=(1, 1, 1)))
+    choice = h.plan_of(h.scene([h.thing(h.quad(), h.lambert(0.5))], lights), h.settings()).world.lights.choice
+    n = 100_000
+    index, probability, _ = choice.choose(np.zeros((3, n), np.float32) + choice.table.centre[:, 0], h.uniform(1, n, np.float32))
+    assert np.isfinite(probability).all()
+    weak = index == np.argmin(np.bincount(index, minlength=2))
+    assert h.mean_is(weak, 2.0**-10 / (1 + 2.0**-10), floor=1e-6)
+    np.testing.assert_allclose(probability[weak], 2.0**-10 / (1 + 2.0**-10), rtol=1e-5)
