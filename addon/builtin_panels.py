@@ -28,6 +28,8 @@ _EXCLUDED_PREFIXES = (
 # Prefixes above that would also hide panels about animation and the like.
 _KEPT = ("DATA_PT_light_animation",)
 _OF_EEVEE = (
+    "DATA_PT_camera_dof",
+    "DATA_PT_camera_dof_aperture",
     "EEVEE_MATERIAL_PT_context_material",
     "EEVEE_MATERIAL_PT_surface",
     "EEVEE_WORLD_PT_surface",

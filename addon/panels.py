@@ -24,6 +24,28 @@ class GlanzPanel:
         return self.layout.column()
 
 
+class GLANZ_CAMERA_PT_panorama(GlanzPanel, bpy.types.Panel):
+    """Blender shows these settings for Cycles only."""
+
+    bl_label = "Panorama"
+    bl_context = "data"
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and context.camera is not None and context.camera.type == "PANO"
+
+    def draw(self, context):
+        camera = context.camera
+        owner = camera if hasattr(camera, "panorama_type") else getattr(camera, "cycles", None)
+        column = self.column()
+        if not hasattr(owner, "panorama_type"):
+            column.label(text="Without Cycles: the full sphere")
+            return
+        column.prop(owner, "panorama_type")
+        for name in ("latitude_min", "latitude_max", "longitude_min", "longitude_max"):
+            column.prop(owner, name)
+
+
 class GLANZ_RENDER_PT_problem(GlanzPanel, bpy.types.Panel):
     """Shown instead of a traceback where the engine cannot be loaded."""
 
@@ -146,6 +168,7 @@ class GLANZ_LIGHT_PT_light(GlanzPanel, bpy.types.Panel):
 
 
 _CLASSES = (
+    GLANZ_CAMERA_PT_panorama,
     GLANZ_RENDER_PT_problem,
     GLANZ_RENDER_PT_sampling,
     GLANZ_RENDER_PT_light_paths,

@@ -2,19 +2,15 @@
 
 import dataclasses
 
-from ..engine import SceneError
-
 
 def fitted(scene, old, new):
     """`scene` for a frame of `new` instead of `old` (width, height) [px].
 
     As with Blender's sensor fit Auto, the longer side keeps its field of view, and pixels keep their shape and the
-    middle of the picture its place. Raises SceneError for a camera whose view cannot be changed so.
+    middle of the picture its place. A camera without a window, as for a panorama, shows the same in a frame of any shape.
     """
-    if old[0] * new[1] == new[0] * old[1] or scene.camera is None:
+    if old[0] * new[1] == new[0] * old[1] or not hasattr(scene.camera, "window"):
         return scene
-    if not hasattr(scene.camera, "window"):
-        raise SceneError(f"camera '{scene.camera.name}' cannot change its shape from {old[0]}x{old[1]} to {new[0]}x{new[1]} px")
     left, right, bottom, top = scene.camera.window
     width, height = right - left, top - bottom
     pixel_shape = (width / old[0]) / (height / old[1])

@@ -9,6 +9,8 @@ from .bsdfs.dielectric import Dielectric
 from .bsdfs.lambert import Lambert
 from .bsdfs.mirror import Mirror
 from .bsdfs.phong import Phong
+from .cameras.orthographic import OrthographicCamera
+from .cameras.panorama import PanoramaCamera
 from .cameras.perspective import PerspectiveCamera
 from .constants import VERSION
 from .errors import FileError, GlanzError, SceneError
@@ -21,7 +23,7 @@ from .lights.sun import SunLight
 from .registry import FILTERS, INTEGRATORS, PASSES, SAMPLERS
 from .rendering import Image, Progress, Tile, metadata, render, render_image
 from .requirements import Requirements
-from .scene import Material, Mesh, Object, Scene, Settings, World
+from .scene import Lens, Material, Mesh, Object, Scene, Settings, World
 
 __version__ = VERSION
 
@@ -36,10 +38,13 @@ __all__ = [
     "GlanzError",
     "Image",
     "Lambert",
+    "Lens",
     "Material",
     "Mesh",
     "Mirror",
     "Object",
+    "OrthographicCamera",
+    "PanoramaCamera",
     "PerspectiveCamera",
     "Phong",
     "PointLight",

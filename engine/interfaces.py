@@ -106,6 +106,41 @@ class Light(Protocol):
 
 
 @runtime_checkable
+class Camera(Protocol):
+    """Where paths begin; render space is centred on its `position` (3,) [m].
+
+    Every camera value has fields `name`, `world_from_camera` (4, 4), `clip_start` and `clip_end` [m], and a `lens`.
+    Film positions x, y (N,) [px] are measured from the middle of the frame, y down.
+    """
+
+    key: str
+    label: str
+    position: object
+
+    def row(self, width, height, scale):
+        """The parameters for a frame of width x height pixels, in render space of `scale` [m^-1], those of the lens included."""
+
+    def check(self):
+        """Raises SceneError, naming the camera, for parameters out of range; the lens and clip range are checked elsewhere."""
+
+    @staticmethod
+    def rays(k, x, y):
+        """Origins and unit directions (3, N) of a pinhole camera's rays."""
+
+    @staticmethod
+    def lens_rays(k, x, y, lens):
+        """The same from points `lens` (2, N) of the aperture, right and up, through what is in focus; `rays` where they are 0."""
+
+    @staticmethod
+    def depth(k, p):
+        """How far points p (3, N) are away, (N,), as passes and the clip range measure it."""
+
+    @staticmethod
+    def ray_per_depth(k, d):
+        """Length of rays along d (3, N) per unit of depth, (N,)."""
+
+
+@runtime_checkable
 class Sampler(Protocol):
     """Random numbers as a pure function of pixel, sample and dimension."""
 

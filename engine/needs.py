@@ -9,6 +9,8 @@ EMISSIVE_MESHES = "emissive meshes"
 LIGHT_CHOICE = "light choice"
 LIGHT_HITS = "light hits"
 BACKGROUND = "background"
+LENS = "lens"
+CLIP_RANGE = "clip range"
 
 MEANING = {
     GEOMETRY: "triangles to intersect",
@@ -17,6 +19,8 @@ MEANING = {
     LIGHT_CHOICE: "more than one light to choose from",
     LIGHT_HITS: "light objects with a size, met by rays",
     BACKGROUND: "light from the world",
+    LENS: "a camera with an aperture, out of focus at other distances than one",
+    CLIP_RANGE: "a camera that does not see what is too near or too far",
 }
 
 

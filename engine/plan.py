@@ -6,6 +6,8 @@ from . import needs
 from .arrays import Columns, columns
 from .registry import FILTERS, INTEGRATORS, PASSES, SAMPLERS
 from .scene.settings import Settings
+from .wavefront.camera_rays import bladed_aperture, round_aperture, through_the_lens, through_the_pinhole
+from .wavefront.clip import clip_row, meet_in_range, meet_nearest, start_in_range
 from .wavefront.direct import add_direct_light
 from .wavefront.emission import add_emission
 from .wavefront.escape import add_background, add_light_hits
@@ -18,10 +20,13 @@ from .world.interaction import flat_normals, leave_in_front, leave_on_either_sid
 class Plan:
     """Everything that stays the same while a picture is rendered.
 
-    on_rays     stages (plan, rays, hits, film) for every batch: light met along the way
-    on_surface  stages (plan, rays, surface, reflection, film) at every surface: direct light
-    first_hits  the passes that record where camera rays hit
-    last_depth  the depth of the last rays that are traced
+    aim             origins and directions (plan, rays, x, y) of camera rays
+    on_camera_rays  stages (plan, rays) before camera rays are traced
+    meet            the hits (plan, rays) of a batch
+    on_rays         stages (plan, rays, hits, film) for every batch: light met along the way
+    on_surface      stages (plan, rays, surface, reflection, film) at every surface: direct light
+    first_hits      the passes that record where camera rays hit
+    last_depth      the depth of the last rays that are traced
     The other functions are choices that cost nothing where there is nothing to choose.
     """
 
@@ -31,6 +36,10 @@ class Plan:
     filter: type
     camera: type
     camera_k: Columns
+    aim: object
+    aperture: object
+    on_camera_rays: tuple
+    meet: object
     on_rays: tuple
     on_surface: tuple
     first_hits: tuple
@@ -54,14 +63,22 @@ class Plan:
             *((add_emission,) if needs.EMISSIVE_MESHES in requirements and world.emitters.count else ()),
         )
         on_surface = (add_direct_light,) if world.materials.rough_lobes and not world.lights.is_empty else ()
+        is_clipped = needs.CLIP_RANGE in requirements
+        camera = scene.camera
+        scale = world.frame.scale
+        row = camera.row(settings.width, settings.height, scale) | (clip_row(camera, scale) if is_clipped else {})
         chosen = tuple(PASSES[key] for key in settings.passes)
         return cls(
             settings=settings,
             world=world,
             numbers=Numbers(SAMPLERS[settings.sampler], settings.samples),
             filter=FILTERS[settings.pixel_filter],
-            camera=type(scene.camera),
-            camera_k=columns([scene.camera.row(settings.width, settings.height)]),
+            camera=type(camera),
+            camera_k=columns([row]),
+            aim=through_the_lens if needs.LENS in requirements else through_the_pinhole,
+            aperture=bladed_aperture if camera.lens.blades else round_aperture,
+            on_camera_rays=(start_in_range,) if is_clipped else (),
+            meet=meet_in_range if is_clipped else meet_nearest,
             on_rays=on_rays,
             on_surface=on_surface,
             first_hits=tuple(p for p in chosen if p.at_first_hit),

@@ -1,5 +1,6 @@
 """What a scene asks for, and which of its parts asks: a pure function of scene and settings."""
 
+import math
 from dataclasses import dataclass
 
 from . import needs
@@ -28,7 +29,12 @@ class Requirements:
         ask(needs.of_plugin("filter", FILTERS[settings.pixel_filter]), "settings")
         for key in settings.passes:
             ask(needs.of_plugin("pass", PASSES[key]), "settings")
-        ask(needs.of_plugin("camera", type(scene.camera)), scene.camera.name)
+        camera = scene.camera
+        ask(needs.of_plugin("camera", type(camera)), camera.name)
+        if camera.lens.is_open:
+            ask(needs.LENS, camera.name)
+        if camera.clip_start > 0 or camera.clip_end < math.inf:
+            ask(needs.CLIP_RANGE, camera.name)
         for o in scene.objects:
             if not o.mesh.triangles.shape[1]:
                 continue

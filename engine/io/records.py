@@ -7,7 +7,7 @@ import numpy as np
 
 from ..errors import FileError, GlanzError
 from ..registry import BSDFS, CAMERAS, LIGHTS
-from ..scene import Material, Mesh, Object, Scene, Settings, World
+from ..scene import Lens, Material, Mesh, Object, Scene, Settings, World
 
 SHARED = (Mesh, Material)
 """Values that many others may hold; they are stored once and are the same value again after reading."""
@@ -21,7 +21,7 @@ PARTS = {
 
 def types():
     """{name in the file: type} of all that may stand in a file; plug-ins are named `light/point` by their keys."""
-    plain = {cls.__name__: cls for cls in (Scene, World, Object, Mesh, Material, Settings)}
+    plain = {cls.__name__: cls for cls in (Scene, World, Object, Mesh, Material, Lens, Settings)}
     plugins = {"bsdf": BSDFS, "light": LIGHTS, "camera": CAMERAS}
     return plain | {f"{kind}/{key}": cls for kind, registry in plugins.items() for key, cls in registry.items()}
 
@@ -127,6 +127,8 @@ def _check_field(cls, field, value):
     part = PARTS.get(cls, {}).get(field.name)
     if part is not None:
         fits = isinstance(value, tuple) and all(map(_fits_type(part[0]), value)) if isinstance(part, list) else _fits_type(part)(value)
+    elif dataclasses.is_dataclass(field.default):
+        fits = type(value) is type(field.default)
     elif field.default is not dataclasses.MISSING:
         fits = _is_alike(field.default, value)
     elif field.default_factory is not dataclasses.MISSING:

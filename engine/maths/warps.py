@@ -73,6 +73,29 @@ def square_to_triangle(u2):
     return u2 - 0.5 * np.minimum(u2[0], u2[1])
 
 
+def square_to_polygon(u2, corners, rotation):
+    """Uniform on the regular polygon with `corners` on the unit circle, (2, N); `rotation` [rad] is where one edge's middle is.
+
+    The first number chooses one of the triangles about the centre, and what is left of it a place within.
+    """
+    t = u2[0] * corners
+    # A number just below 1 may be rounded up to `corners`.
+    triangle = np.minimum(np.floor(t), corners - 1)
+    weights = square_to_triangle(np.stack((np.minimum(t - triangle, 1), u2[1])))
+    half = np.pi / corners
+    middle = rotation + 2 * half * triangle
+    first, second = middle - half, middle + half
+    return np.stack((
+        weights[0] * np.cos(first) + weights[1] * np.cos(second),
+        weights[0] * np.sin(first) + weights[1] * np.sin(second),
+    )).astype(u2.dtype, copy=False)
+
+
+def square_to_polygon_pdf(corners):
+    """1 / area per unit area of the polygon: n / 2 sin(2 pi / n)."""
+    return 2 / (corners * np.sin(_TWO_PI / corners))
+
+
 def _about_axis(one_minus_cos, phi):
     # sin^2 = (1 - cos)(1 + cos): no cancellation near the axis.
     sin = np.sqrt(one_minus_cos * (2 - one_minus_cos))

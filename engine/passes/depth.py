@@ -1,12 +1,11 @@
 """How far away things are."""
 
-from ..maths.vectors import dot
 from . import registry
 
 
 @registry.add
 class Depth:
-    """Distance along the camera's axis [m] of what the first sample meets; 1e10 where it meets nothing, as Cycles'."""
+    """How far away the first sample meets something [m], along the camera's axis; in a panorama along the ray. Else 1e10, as Cycles'."""
 
     key = "Depth"
     label = "Depth"
@@ -17,8 +16,7 @@ class Depth:
 
     @staticmethod
     def values(plan, surface):
-        axis = plan.camera_k.axis
-        return dot(surface.p, axis)[None] / plan.world.frame.scale
+        return plan.camera.depth(plan.camera_k, surface.p)[None] / plan.world.frame.scale
 
     @staticmethod
     def gather(radiance, first_hits):

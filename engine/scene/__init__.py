@@ -1,6 +1,7 @@
 """Immutable scene values: what a user hands to the renderer."""
 
+from .lens import Lens
 from .settings import Settings
 from .values import Material, Mesh, Object, Scene, World
 
-__all__ = ["Material", "Mesh", "Object", "Scene", "Settings", "World"]
+__all__ = ["Lens", "Material", "Mesh", "Object", "Scene", "Settings", "World"]

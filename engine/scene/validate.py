@@ -39,6 +39,9 @@ def _check_camera(scene):
         raise SceneError(f"scene '{scene.name}': {type(camera).__name__} is not a camera")
     if not np.isfinite(camera.world_from_camera).all() or not np.linalg.det(camera.world_from_camera[:3, :3]):
         raise SceneError(f"camera '{camera.name}': its transform is not finite or flattens space")
+    if not (0 <= camera.clip_start < camera.clip_end):
+        raise SceneError(f"camera '{camera.name}': clip range is {camera.clip_start} to {camera.clip_end}, allowed: 0 <= start < end")
+    camera.lens.check(camera.name)
     camera.check()
 
 

@@ -1,8 +1,9 @@
-"""The first rays of paths: through the film, filtered."""
+"""The first rays of paths: through the film, filtered, and through the lens where there is one."""
 
 import numpy as np
 
 from ..maths.hashing import mix, mix_int
+from ..maths.warps import square_to_disk, square_to_polygon
 from .numbers import Dimension
 from .records import Rays
 
@@ -29,5 +30,31 @@ def camera_rays(plan, px, py, first, count):
     # Measured from the middle of the frame, where half pixels are exact.
     x = np.tile((px + (0.5 - 0.5 * settings.width)).astype(np.float32), count) + dx
     y = np.tile((py + (0.5 - 0.5 * settings.height)).astype(np.float32), count) + dy
-    rays.o[...], rays.d[...] = plan.camera.rays(plan.camera_k, x, y)
+    rays.o[...], rays.d[...] = plan.aim(plan, rays, x, y)
+    for stage in plan.on_camera_rays:
+        stage(plan, rays)
     return rays
+
+
+def through_the_pinhole(plan, rays, x, y):
+    """Origins and directions (3, N) of rays through film positions x, y (N,) [px] from the middle of the frame; no random number."""
+    return plan.camera.rays(plan.camera_k, x, y)
+
+
+def through_the_lens(plan, rays, x, y):
+    """The same from random points of the aperture."""
+    k = plan.camera_k
+    lens = plan.aperture(k, plan.numbers.two(rays, Dimension.LENS))
+    lens[0] *= k.lens_width
+    lens[1] *= k.lens_height
+    return plan.camera.lens_rays(k, x, y, lens)
+
+
+def round_aperture(k, u2):
+    """Points (2, N), uniform on the unit disk."""
+    return square_to_disk(u2)
+
+
+def bladed_aperture(k, u2):
+    """Points (2, N), uniform on the regular polygon with corners on the unit circle."""
+    return square_to_polygon(u2, k.blades, k.rotation)

@@ -25,7 +25,7 @@ def _trace(plan, rays, film, is_cancelled):
         if is_cancelled():
             return False
         rays = stack.pop()
-        hits = world.accel.closest(rays.o, rays.d)
+        hits = plan.meet(plan, rays)
         for add_light in plan.on_rays:
             add_light(plan, rays, hits, film)
         if rays.depth > plan.settings.max_depth:

@@ -26,7 +26,8 @@ BYTES_PER_TRIANGLE = 160
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Hits:
-    """What N rays met: `prim` (N,) int32 is the triangle, -1 for nothing; t, u, v (N,) float32 are defined where prim >= 0.
+    """What N rays met: `prim` (N,) int32 is the triangle, -1 for nothing; t, u, v (N,) float32 are defined where prim >= 0;
+    elsewhere t is how far the ray could have gone.
 
     The point is v0 + u e1 + v e2, which is exacter than o + t d.
     """
@@ -65,12 +66,18 @@ class Accel:
             # The tree is built at the first query: do it now, where one thread runs and errors have a name.
             self.closest(np.zeros((3, 1), np.float32), np.ones((3, 1), np.float32))
 
-    def closest(self, o, d):
-        """The nearest triangle along each ray: o, d (3, N) float32, d unit; returns `Hits`."""
+    def closest(self, o, d, limit=None):
+        """The nearest triangle along each ray: o, d (3, N) float32, d unit; returns `Hits`.
+
+        limit, (N,) float32: what lies farther away is not met; rays that meet nothing keep it as their t (without: inf).
+        """
         n = _check_rays(o, d)
-        hits = Hits(np.full(n, -1, np.int32), np.full(n, np.inf, np.float32), np.zeros(n, np.float32), np.zeros(n, np.float32))
-        for lanes in () if self.is_empty else _safe_lanes(o, d):
-            found = self._scene.run(o[:, lanes].T, d[:, lanes].T, dists=np.inf, output=True)
+        t = np.full(n, np.inf, np.float32) if limit is None else _checked_limit(limit, n).copy()
+        hits = Hits(np.full(n, -1, np.int32), t, np.zeros(n, np.float32), np.zeros(n, np.float32))
+        for lanes in () if self.is_empty else _safe_lanes(o, d, limit):
+            # embreex may write into the limits: it gets its own.
+            dists = np.inf if limit is None else limit[lanes].copy()
+            found = self._scene.run(o[:, lanes].T, d[:, lanes].T, dists=dists, output=True)
             if n == found["primID"].size:
                 return Hits(found["primID"], found["tfar"], found["u"], found["v"])
             hits.prim[lanes], hits.t[lanes] = found["primID"], found["tfar"]
@@ -80,9 +87,7 @@ class Accel:
     def occluded(self, o, d, limit):
         """Whether anything lies within `limit` (N,) float32 along each ray, (N,) bool."""
         n = _check_rays(o, d)
-        limit = np.asarray(limit)
-        if limit.shape != (n,) or limit.dtype != np.float32:
-            raise AccelError(f"limit must be float32 ({n},), not {limit.dtype} {limit.shape}")
+        limit = _checked_limit(limit, n)
         result = np.zeros(n, bool)
         for lanes in () if self.is_empty else _safe_lanes(o, d, limit):
             # embreex may write into the limits: it gets its own.
@@ -99,6 +104,13 @@ def _check_rays(o, d):
     if o.shape != d.shape:
         raise AccelError(f"{o.shape[1]} ray origins, but {d.shape[1]} directions")
     return o.shape[1]
+
+
+def _checked_limit(limit, n):
+    limit = np.asarray(limit)
+    if limit.shape != (n,) or limit.dtype != np.float32:
+        raise AccelError(f"limit must be float32 ({n},), not {limit.dtype} {limit.shape}")
+    return limit
 
 
 def _safe_lanes(o, d, limit=None):

@@ -36,7 +36,9 @@ class Layout:
 def _context(ob=None):
     scene = bpy.context.scene
     light = ob.data if ob and ob.type == "LIGHT" else None
-    return SimpleNamespace(engine=scene.render.engine, scene=scene, view_layer=bpy.context.view_layer, object=ob, light=light)
+    camera = ob.data if ob and ob.type == "CAMERA" else None
+    layer = bpy.context.view_layer
+    return SimpleNamespace(engine=scene.render.engine, scene=scene, view_layer=layer, object=ob, light=light, camera=camera)
 
 
 def _drawn(name, ob=None):
@@ -59,6 +61,14 @@ def test_settings_are_drawn():
     own = {name for name in bpy.context.scene.glanz.bl_rna.properties.keys() if name not in ("rna_type", "name")}  # noqa: SIM118
     assert own <= set(names)
     assert {"threads", "threads_mode"} <= set(names)
+
+
+def test_panoramas_can_be_edited():
+    ob = blender.add_camera(type="PANO")
+    ranges = {"latitude_min", "latitude_max", "longitude_min", "longitude_max"}
+    assert set(_drawn("GLANZ_CAMERA_PT_panorama", ob)) == {"panorama_type", *ranges}
+    ob.data.type = "ORTHO"
+    assert not OWN["GLANZ_CAMERA_PT_panorama"].poll(_context(ob))
 
 
 def test_passes_are_drawn():
@@ -101,6 +111,8 @@ def test_a_problem_is_shown_only_where_there_is_one(monkeypatch):
     "name",
     [
         "DATA_PT_camera",
+        "DATA_PT_camera_dof",
+        "DATA_PT_camera_dof_aperture",
         "DATA_PT_lens",
         "EEVEE_MATERIAL_PT_context_material",
         "EEVEE_MATERIAL_PT_surface",

@@ -146,8 +146,10 @@ def test_an_error_while_a_tile_is_written_ends_the_result_and_fails(furnace, tmp
 
 
 def test_an_unsupported_camera_is_named(furnace, tmp_path):
-    bpy.context.scene.camera.data.type = "ORTHO"
-    with pytest.raises(RuntimeError, match="camera 'Camera' has type ORTHO"):
+    camera = bpy.context.scene.camera.data
+    camera.type = "PANO"
+    camera.panorama_type = "MIRRORBALL"
+    with pytest.raises(RuntimeError, match="camera 'Camera' has panorama type MIRRORBALL"):
         blender.render(tmp_path / "a.exr")
     assert not (tmp_path / "a.exr").exists()
 

@@ -5,8 +5,22 @@ import json
 import numpy as np
 import pytest
 
-from glanz.engine import AreaLight, Lambert, Material, Phong, PointLight, Requirements, SunLight, needs
+from glanz.engine import (
+    AreaLight,
+    Lambert,
+    Lens,
+    Material,
+    OrthographicCamera,
+    PanoramaCamera,
+    PerspectiveCamera,
+    Phong,
+    PointLight,
+    Requirements,
+    SunLight,
+    needs,
+)
 from glanz.engine.plan import Plan
+from glanz.engine.wavefront.numbers import Dimension
 from glanz.engine.world.accel import Accel
 from glanz.tests import helpers as h, scenes
 
@@ -21,7 +35,14 @@ BULB = PointLight(name="bulb", position=(1.0, -2.0, 3.0))
 EMPTY = h.thing(h.Mesh(name="empty", vertices=np.zeros((3, 0)), triangles=np.zeros((3, 0))), LAMP.materials[0])
 BLACK_LOBE = h.thing(h.box(), Material(name="m", lobes=(Lambert((0.0, 0.0, 0.0)), Phong((0.5, 0, 0), 2.0))))
 
+EYE = PerspectiveCamera.look_at((3, -4, 2), (0, 0, 0), name="Eye")
+OPEN = Lens(radius=0.1, focus_distance=5.0)
+
 TABLE = {
+    "lens": (h.scene(camera=h.replaced(EYE, lens=OPEN)), {"lens": ["Eye"]}),
+    "closed lens": (h.scene(camera=h.replaced(EYE, lens=Lens(blades=5, focus_distance=2.0))), {}),
+    "near clip": (h.scene(camera=h.replaced(EYE, clip_start=0.1)), {"clip range": ["Eye"]}),
+    "far clip": (h.scene(camera=h.replaced(EYE, clip_end=100.0)), {"clip range": ["Eye"]}),
     "nothing": (h.scene(), {}),
     "matte": (h.scene([MATTE]), {"geometry": ["chair"], "bsdf lambert": ["wood"]}),
     "shiny": (h.scene([SHINY]), {"geometry": ["box"], "bsdf phong": ["brass"]}),
@@ -80,7 +101,10 @@ def test_every_need_has_a_meaning():
     assert set(needs.MEANING) == {v for k, v in vars(needs).items() if k.isupper() and isinstance(v, str)}
 
 
+VIEW = EYE.world_from_camera
 SCENES = {
+    "orthographic": h.scene([MATTE, FLOOR], [BULB], OrthographicCamera(world_from_camera=VIEW)),
+    "panorama": h.scene([MATTE, FLOOR], [BULB], PanoramaCamera(world_from_camera=VIEW)),
     "matte and bulb": h.scene([MATTE, FLOOR], [BULB]),
     "shiny and sun": h.scene([SHINY, FLOOR], [SunLight(towards=(0.6, 0.0, 0.8))]),
     "lamp": h.scene([MATTE, FLOOR, LAMP]),
@@ -117,6 +141,26 @@ def test_everything_asks_for_everything():
         assert need in required
     for key in ("bsdf lambert", "bsdf phong", "light area", "light point", "light spot", "light sun"):
         assert key in required
+
+
+@pytest.mark.parametrize("camera", [EYE, OrthographicCamera(world_from_camera=VIEW), PanoramaCamera(world_from_camera=VIEW)])
+def test_a_pinhole_takes_no_number_and_an_open_lens_takes_two(monkeypatch, camera):
+    """And without a clip range camera rays have no limit."""
+
+    def asked(**changes):
+        with monkeypatch.context() as patch:
+            numbers = h.spy(patch, Plan.of(h.scene(), SETTINGS, Requirements.of(h.scene(), SETTINGS)).numbers.__class__, "two")
+            closest = h.spy(patch, Accel, "closest")
+            h.pixels(h.scene([MATTE], [BULB], h.replaced(camera, **changes)), SETTINGS)
+        limited = [len(call.args) > 3 for call in closest if call.args[1].shape[1] > 1]
+        return sum(call.args[2] == Dimension.LENS for call in numbers), limited
+
+    assert asked()[0] == 0
+    assert not any(asked()[1])
+    assert asked(lens=OPEN)[0] == 1
+    limited = asked(clip_start=0.01)[1]
+    assert limited[0]
+    assert not any(limited[1:])
 
 
 def calls_of(monkeypatch, scene, required):

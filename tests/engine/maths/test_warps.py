@@ -148,6 +148,45 @@ def test_uniformity_catches_a_triangle_folded_wrongly():
         check_triangle(crowded)
 
 
+def polygon(corners, rotation):
+    """Corners (2, n) by definition: on the unit circle, the middle of an edge at the angle `rotation`."""
+    angle = rotation + (2 * np.arange(corners) + 1) * np.pi / corners
+    return np.stack((np.cos(angle), np.sin(angle)))
+
+
+def check_polygon(warp, corners, rotation):
+    """As many points in each small square as belongs to its share of the polygon; the share by counting a fine grid."""
+    x, y = warp(h.uniform(13, 200_000), corners, rotation)
+    edges = np.linspace(-1, 1, 17)
+    fine = (np.arange(2048) + 0.5) / 1024 - 1
+    points = np.stack(np.meshgrid(fine, fine, indexing="ij")).reshape(2, -1)
+    place = polygon(corners, rotation)
+    to = np.roll(place, -1, axis=1) - place
+    away = points[:, None] - place[:, :, None]
+    inside = points[:, ((to[0][:, None] * away[1] - to[1][:, None] * away[0]) >= 0).all(axis=0)]
+    share = np.histogram2d(*inside, bins=(edges, edges))[0] / inside.shape[1]
+    assert h.chi2_p(np.histogram2d(x, y, bins=(edges, edges))[0], share * x.size) > h.ALPHA
+    assert inside.shape[1] * (2 / 2048) ** 2 * warps.square_to_polygon_pdf(corners) == pytest.approx(1, abs=1e-3)
+
+
+@pytest.mark.parametrize(("corners", "rotation"), [(3, 0.0), (3, 0.4), (4, np.pi / 4), (5, -1.0), (7, 6.0), (16, 0.1)])
+def test_points_on_a_polygon_are_uniform(corners, rotation):
+    """chi2 in 16 x 16 bins: detects 7 % of the density in half of the bins, and any point outside."""
+    check_polygon(warps.square_to_polygon, corners, rotation)
+
+
+def test_uniformity_catches_a_polygon_turned_by_two_degrees_and_a_crowded_one():
+    def turned(u2, corners, rotation):
+        return warps.square_to_polygon(u2, corners, rotation + np.radians(2))
+
+    def crowded(u2, corners, rotation):
+        return warps.square_to_polygon(np.stack((u2[0], u2[1] ** 1.1)), corners, rotation)
+
+    for mutant in (turned, crowded):
+        with pytest.raises(AssertionError):
+            check_polygon(mutant, 5, 0.3)
+
+
 def test_warps_keep_float32_and_stay_in_range_at_the_ends():
     u = np.array([0, 2.0**-24, 1 - 2.0**-24], np.float32)
     u2 = np.stack(np.meshgrid(u, u)).reshape(2, -1)
@@ -159,6 +198,7 @@ def test_warps_keep_float32_and_stay_in_range_at_the_ends():
         warps.square_to_cone(u2, np.full(9, 5e-13, np.float32)),
         warps.square_to_cosine_power(u2, exponent),
         warps.square_to_triangle(u2),
+        warps.square_to_polygon(u2, np.full(1, 6, np.float32), np.full(1, 0.5, np.float32)),
     ):
         assert w.dtype == np.float32
         assert np.isfinite(w).all()

@@ -282,6 +282,23 @@ ROWS = {
     "None as triangles": "refused(lambda: Accel(V, None))",
     "None as origins": "refused(lambda: a.closest(None, D)); refused(lambda: a.occluded(None, D, FAR))",
     "None as directions": "refused(lambda: a.closest(O, None))",
+    "limits of the nearest hit": """
+        far = np.full(N, 0.5, np.float32)
+        m = a.closest(O, D, far)
+        assert (m.prim == -1).all() and (m.t == 0.5).all() and (far == 0.5).all() and (m.u == 0).all()
+        m = a.closest(O, D, FAR)
+        assert (m.prim == 0).all() and np.allclose(m.t, 1)
+        assert (a.closest(O, D, np.full(N, np.inf, np.float32)).t == a.closest(O, D).t).all()
+        some = np.where(np.arange(N) % 2, FAR, np.float32(0.5)).astype(np.float32)
+        assert ((a.closest(O, D, some).prim == 0) == (np.arange(N) % 2 == 1)).all()
+        for bad in (-1.0, -np.inf, np.nan):
+            assert (a.closest(O, D, np.full(N, bad, np.float32)).prim == -1).all()
+        for bad in (FAR[:5], FAR.astype(float), np.float32(1)):
+            refused(lambda bad=bad: a.closest(O, D, bad))
+        bad = O.copy(); bad[0, 3] = np.nan
+        m = a.closest(bad, D, FAR)
+        assert m.prim[3] == -1 and (np.delete(m.prim, 3) == 0).all()
+        """,
     "None as limit": "refused(lambda: a.occluded(O, D, None))",
     "memory exhausted": """
         import glanz.engine.world.accel as module

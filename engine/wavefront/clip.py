@@ -1,0 +1,28 @@
+"""What rays meet, and the clip range of the camera: the other rays know none."""
+
+import numpy as np
+
+
+def clip_row(camera, scale):
+    """The clip range of `camera` in render space of `scale` [m^-1], as {column: number}; both along the axis."""
+    return {"clip_start": camera.clip_start * scale, "clip_length": (camera.clip_end - camera.clip_start) * scale}
+
+
+def start_in_range(plan, rays):
+    """Camera rays start where the clip range does; what is nearer is behind them."""
+    k = plan.camera_k
+    rays.o[...] += rays.d * (k.clip_start * plan.camera.ray_per_depth(k, rays.d))
+
+
+def meet_nearest(plan, rays):
+    """`Hits` of the nearest triangles."""
+    return plan.world.accel.closest(rays.o, rays.d)
+
+
+def meet_in_range(plan, rays):
+    """The same, but camera rays end where the clip range does."""
+    if rays.depth:
+        return meet_nearest(plan, rays)
+    k = plan.camera_k
+    limit = k.clip_length * plan.camera.ray_per_depth(k, rays.d)
+    return plan.world.accel.closest(rays.o, rays.d, limit.astype(np.float32, copy=False))
