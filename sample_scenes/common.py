@@ -137,6 +137,11 @@ def glossy(name, colour, roughness):
     return _material(name, "ShaderNodeBsdfGlossy", colour, Roughness=roughness)
 
 
+def glass(name, colour, ior):
+    """A smooth boundary with an index of refraction."""
+    return _material(name, "ShaderNodeBsdfGlass", colour, Roughness=0.0, IOR=ior)
+
+
 def emission(name, colour, strength):
     """Light of radiance `colour` times `strength`."""
     return _material(name, "ShaderNodeEmission", colour, Strength=strength)

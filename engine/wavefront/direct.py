@@ -22,8 +22,9 @@ def add_direct_light(plan, rays, surface, reflection, film):
     L = rays.beta * f
     E *= cos * power_heuristic(pdf * probability, scattered_pdf) / probability
     L *= E
-    # Light from below the geometric surface would leak through it.
-    candidate = (np.maximum(np.maximum(L[0], L[1]), L[2]) > 0) & (cos > 0) & (dot(surface.n, wi) > 0)
+    # Light from below the geometric surface would leak through it. (Not "> 0": what is not a number goes to the film,
+    # which counts it.)
+    candidate = ~(np.maximum(np.maximum(L[0], L[1]), L[2]) <= 0) & (cos > 0) & (dot(surface.n, wi) > 0)
     lanes = np.nonzero(candidate & ~_blocked(world.accel, surface.o, wi, distance * _SHORTENED, candidate))[0]
     film.add(rays.slot.take(lanes), L.take(lanes, axis=1))
 
