@@ -113,7 +113,7 @@ class World:
 class Scene:
     """Everything that a picture depends on, but for the `Settings`.
 
-    camera   a camera value (`PerspectiveCamera`)
+    camera   a camera value (`PerspectiveCamera`, `OrthographicCamera`, `PanoramaCamera`)
     objects  `Object` values
     lights   light values (`PointLight`, `SpotLight`, `SunLight`, `AreaLight`)
     """

@@ -11,7 +11,7 @@ import pytest
 
 from glanz.cli import main
 from glanz.cli.window import fitted
-from glanz.engine import PerspectiveCamera, Settings, render_image, write_scene
+from glanz.engine import PanoramaCamera, PerspectiveCamera, Settings, render_image, write_scene
 from glanz.engine.io.exr import read_exr, read_exr_metadata
 from glanz.tests import helpers
 
@@ -89,6 +89,11 @@ def test_resolution_changes_the_frame_and_keeps_the_view_of_the_longer_side(scen
 def test_the_window_follows_the_frame_as_blenders_automatic_sensor_fit(old, new, window):
     scene = helpers.scene(camera=PerspectiveCamera(window=(-1, 1.5, -0.5, 0.75)))
     np.testing.assert_allclose(fitted(scene, old, new).camera.window, window, rtol=1e-12)
+
+
+def test_a_panorama_fills_a_frame_of_any_shape():
+    scene = helpers.scene(camera=PanoramaCamera())
+    assert fitted(scene, (200, 100), (100, 100)) is scene
 
 
 FAILURES = {

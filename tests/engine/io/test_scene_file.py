@@ -13,6 +13,7 @@ from glanz.engine import (
     AreaLight,
     FileError,
     Lambert,
+    Lens,
     Material,
     Mesh,
     Object,
@@ -41,7 +42,10 @@ def a_scene():
     lamp = Material(name="lamp", emission=(1e-300, 5, 7))
     matrix = rng.standard_normal((4, 4))
     return Scene(
-        camera=PerspectiveCamera(name="cam", world_from_camera=matrix, window=(-0.1, 0.5, -0.3, 0.3)),
+        camera=PerspectiveCamera(
+            name="cam", world_from_camera=matrix, window=(-0.1, 0.5, -0.3, 0.3),
+            clip_start=1 / 3, lens=Lens(radius=0.1, focus_distance=np.float32(0.3), blades=7),
+        ),
         objects=[
             Object(name="a", mesh=corners, materials=(red, lamp), world_from_object=matrix),
             Object(name="b", mesh=corners, materials=(lamp,)),
@@ -161,6 +165,9 @@ EDITS = {
     "position": lambda d: d["scene"]["lights"][0].update(position=["a", "b", "c"]),
     "radius": lambda d: d["scene"]["lights"][0].update(radius=10**300),
     "window": lambda d: d["scene"]["camera"].update(window=[0, 1]),
+    "lens": lambda d: d["scene"]["camera"].update(lens=d["scene"]["world"]),
+    "blades": lambda d: d["scene"]["camera"]["lens"].update(blades=2.5),
+    "clip_end": lambda d: d["scene"]["camera"].update(clip_end="far"),
     "unknown content": lambda d: d["scene"]["objects"][0].update(mesh={"shared": 99}),
     "is missing": lambda d: d["scene"].update(name={"npy": "arrays/99.npy"}),
     "world": lambda d: d["scene"].update(world=None),
