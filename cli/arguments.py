@@ -39,7 +39,7 @@ def _add_render(commands):
     frames.add_argument("--frames", type=frame_range, metavar="A-B[:STEP]", help="frames A to B, in steps of STEP")
     for name, kind, text in (
         ("integrator", str, "how light is followed: path"),
-        ("sampler", str, "random numbers: stratified, random"),
+        ("sampler", str, "random numbers: stratified, sobol, blue_noise, multijitter, random, grid"),
         ("samples", int, "paths per pixel"),
         ("max-depth", int, "bounces; 0 is direct light only"),
         ("seed", int, "another number, other noise"),

@@ -142,7 +142,11 @@ class Camera(Protocol):
 
 @runtime_checkable
 class Sampler(Protocol):
-    """Random numbers as a pure function of pixel, sample and dimension."""
+    """Random numbers as a pure function of pixel, sample and dimension.
+
+    A sampler for which neighbouring pixels matter also has pixel_key(px, py, width, seed): its own keys (P,) uint32 for
+    pixels px, py (P,) of a frame that is `width` wide. All others are given hashes (`wavefront.numbers.hashed_pixel`).
+    """
 
     key: str
     label: str

@@ -6,24 +6,16 @@ takes which cell is a random permutation, its own for each pixel and dimension, 
 and the mean is unbiased for any number of samples.
 """
 
-import math
-
 import numpy as np
 
-from ..constants import ONE_MINUS_EPS32
 from ..maths.hashing import mix, mix_int, permute, to_unit, to_unit2
+from ..maths.strata import grid, place
 from . import registry
-
-
-def grid(samples):
-    """(columns, rows) of the two-dimensional cells: the most square grid with at least `samples` of them."""
-    rows = math.isqrt(samples)
-    return -(-samples // rows), rows
 
 
 @registry.add
 class Stratified:
-    """One sample in each cell of a grid, per pixel and dimension: least noise for smooth light; the default."""
+    """One random point in each cell of a grid: even in every pixel and dimension, whatever the number; the default."""
 
     key = "stratified"
     label = "Stratified"
@@ -31,7 +23,7 @@ class Stratified:
     @staticmethod
     def one(key, sample, dimension, samples):
         h = mix(key ^ mix_int(dimension))
-        return _place(permute(sample, samples, h), to_unit(mix(h ^ sample)), samples)
+        return place(permute(sample, samples, h), to_unit(mix(h ^ sample)), samples)
 
     @staticmethod
     def two(key, sample, dimension, samples):
@@ -41,14 +33,6 @@ class Stratified:
         row = cell // np.uint32(columns)
         cell -= row * np.uint32(columns)
         u2 = to_unit2(mix(h ^ sample))
-        _place(cell, u2[0], columns)
-        _place(row, u2[1], rows)
+        place(cell, u2[0], columns)
+        place(row, u2[1], rows)
         return u2
-
-
-def _place(cell, jitter, cells):
-    # Converted through int32, which cells fit into: uint32 and float32 would meet in float64.
-    jitter += cell.view(np.int32).astype(np.float32)
-    jitter *= np.float32(1 / cells)
-    # Rounding may reach 1, which no warp expects.
-    return np.minimum(jitter, np.float32(ONE_MINUS_EPS32), out=jitter)

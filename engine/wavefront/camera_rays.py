@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from ..maths.hashing import mix, mix_int
 from ..maths.warps import square_to_disk, square_to_polygon
 from .numbers import Dimension
 from .records import Rays
@@ -14,7 +13,7 @@ def camera_rays(plan, px, py, first, count):
     A pixel is known by its place in the full frame, so that a border renders to the pixels of the whole picture.
     """
     settings = plan.settings
-    key = mix((py * settings.width + px).astype(np.uint32) ^ mix_int(settings.seed))
+    key = plan.numbers.keys(px, py, settings)
     n = count * px.size
     rays = Rays(
         o=np.zeros((3, n), np.float32),

@@ -3,6 +3,9 @@
 from dataclasses import dataclass
 from enum import IntEnum
 
+import numpy as np
+
+from ..maths.hashing import mix, mix_int
 from ..samplers.random import Random
 
 
@@ -28,6 +31,10 @@ class Numbers:
     sampler: type
     samples: int
 
+    def keys(self, px, py, settings):
+        """What random numbers know a pixel px, py (P,) of the full frame by, uint32; a sampler may have keys of its own."""
+        return getattr(self.sampler, "pixel_key", hashed_pixel)(px, py, settings.width, settings.seed)
+
     def one(self, rays, dimension):
         """u1 (N,) for each ray at its depth."""
         return self.sampler.one(rays.key, rays.sample, dimension + _PER_BOUNCE * rays.depth, self.samples)
@@ -39,6 +46,11 @@ class Numbers:
     def two(self, rays, dimension):
         """u2 (2, N) for each ray at its depth."""
         return self.sampler.two(rays.key, rays.sample, dimension + _PER_BOUNCE * rays.depth, self.samples)
+
+
+def hashed_pixel(px, py, width, seed):
+    """Keys (P,) uint32 for samplers that treat all pixels alike: nothing is left of where they are."""
+    return mix((py * width + px).astype(np.uint32) ^ mix_int(seed))
 
 
 def only_lobe(plan, rays):
