@@ -193,10 +193,14 @@ class Pass(Protocol):
 
 @runtime_checkable
 class Integrator(Protocol):
-    """What an integrator pushes onto the stack of batches; everything else is the same loop for all of them."""
+    """What an integrator pushes onto the stack of batches; everything else is the same loop for all of them.
+
+    samples_lights  shadow rays look for lights; else only scattered rays find them
+    """
 
     key: str
     label: str
+    samples_lights: bool
 
     @staticmethod
     def scatter(plan, rays, surface, reflection):

@@ -55,14 +55,16 @@ class Plan:
         """Compile `scene` and keep what `requirements` ask for."""
         bsdfs = requirements.plugins("bsdf")
         smooth = needs.SMOOTH_NORMALS in requirements
-        world = compile_world(scene, bsdfs, smooth, needs.LIGHT_CHOICE in requirements)
+        integrator = INTEGRATORS[settings.integrator]
+        world = compile_world(scene, bsdfs, smooth, needs.LIGHT_CHOICE in requirements, integrator.samples_lights)
         can_reflect = bool(world.materials.lobes)
         on_rays = (
             *((add_background,) if needs.BACKGROUND in requirements else ()),
             *((add_light_hits,) if needs.LIGHT_HITS in requirements else ()),
             *((add_emission,) if needs.EMISSIVE_MESHES in requirements and world.emitters.count else ()),
         )
-        on_surface = (add_direct_light,) if world.materials.rough_lobes and not world.lights.is_empty else ()
+        can_sample = integrator.samples_lights and world.materials.rough_lobes and not world.lights.is_empty
+        on_surface = (add_direct_light,) if can_sample else ()
         is_clipped = needs.CLIP_RANGE in requirements
         camera = scene.camera
         scale = world.frame.scale
@@ -83,7 +85,7 @@ class Plan:
             on_surface=on_surface,
             first_hits=tuple(p for p in chosen if p.at_first_hit),
             passes=chosen,
-            scatter=INTEGRATORS[settings.integrator].scatter,
+            scatter=integrator.scatter,
             shading_normals=smooth_normals if smooth else flat_normals,
             choose_lobe=one_of_the_lobes if len(world.materials.lobes) > 1 else only_lobe,
             leave=leave_on_either_side if any(lobe.bsdf.transmits for lobe in world.materials.lobes) else leave_in_front,

@@ -26,6 +26,9 @@ def validate(scene, settings):
     warnings = []
     objects = tuple(checked for o in scene.objects if (checked := _check_object(o, warnings)))
     kept_lights = tuple(light for light in scene.lights if _check_light(light, warnings))
+    if not INTEGRATORS[settings.integrator].samples_lights:
+        unseen = [light.name for light in kept_lights if not light.has_extent()]
+        warnings += [f"light '{name}' stays dark: it has no size, and '{settings.integrator}' sends no rays to lights" for name in unseen]
     if not _is_colour(scene.world.radiance):
         raise SceneError(f"world '{scene.world.name}': radiance is {scene.world.radiance}, allowed: three finite numbers from 0 on")
     return dataclasses.replace(scene, objects=objects, lights=kept_lights), tuple(warnings)

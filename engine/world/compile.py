@@ -60,11 +60,11 @@ class CompiledWorld:
 
 # Corners may be anything; what is not finite after all is found by `_measure` and told.
 @np.errstate(over="ignore", invalid="ignore")
-def compile_world(scene, bsdfs, smooth, has_choice):
+def compile_world(scene, bsdfs, smooth, has_choice, samples_lights=True):
     """`scene` (validated) as a `CompiledWorld`.
 
     `bsdfs` are the lobes to make room for, `smooth` says that shading normals are wanted, `has_choice` that there may
-    be more than one light. Raises SceneError where the geometry does not fit into memory.
+    be more than one light, `samples_lights` that shadow rays look for them. Raises SceneError where the geometry does not fit into memory.
     """
     materials, row = _number_materials(scene)
     table = Materials.of(materials, bsdfs)
@@ -104,7 +104,7 @@ def compile_world(scene, bsdfs, smooth, has_choice):
         accel=accel,
         triangles=triangles,
         materials=table,
-        lights=Lights.of(scene.lights, emitters, frame, radius, has_choice),
+        lights=Lights.of(scene.lights, emitters, frame, radius, has_choice, samples_lights),
         emitters=emitters,
         background=np.array(scene.world.radiance, np.float32)[:, None],
         warnings=warnings,

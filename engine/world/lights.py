@@ -62,16 +62,17 @@ class Lights:
     hittable: tuple
 
     @classmethod
-    def of(cls, lamps, emitters, frame, radius, has_choice=True):
+    def of(cls, lamps, emitters, frame, radius, has_choice=True, are_sampled=True):
         """From light values `lamps` and the `Emitters`; `radius` [m] is the scene's, for suns.
 
-        `has_choice` says that there may be more than one light.
+        `has_choice` says that there may be more than one light, `are_sampled` that shadow rays look for them.
         """
         lamps = [lamp for lamp in lamps if any(lamp.power())]
         kinds = dict.fromkeys(type(lamp) for lamp in lamps)
         lamps = [lamp for kind in kinds for lamp in lamps if type(lamp) is kind]
         groups = []
-        are_met = sum(lamp.has_extent() for lamp in lamps) <= MAX_HITTABLE
+        # Without shadow rays every light has to be met.
+        are_met = not are_sampled or sum(lamp.has_extent() for lamp in lamps) <= MAX_HITTABLE
         for kind in kinds:
             rows = [lamp.row(frame) for lamp in lamps if type(lamp) is kind]
             groups.append(Group(kind, columns(rows), sum(g.count for g in groups), len(rows), are_met))

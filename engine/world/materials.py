@@ -5,8 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import Columns, columns
-from ..constants import LUMINANCE
+from ..constants import INV_PI, LUMINANCE
+from ..maths.frames import to_world
 from ..maths.vectors import dot
+from ..maths.warps import square_to_uniform_hemisphere
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,15 +94,18 @@ class Reflection:
             pdf = pdf + (density if len(self.shares) == 1 else density * share)
         return f, pdf
 
-    def scatter(self, surface, u1, u2):
+    def scatter(self, surface, u1, u2, uniformly=False):
         """One direction on from each point of `surface`: wi (3, N), weight = f |cos| / pdf (3, N), and pdf (N,).
 
-        u1 (N,) chooses the lobe (None where there is but one), u2 (2, N) the direction. The pdf of a specular lobe is
-        inf: nothing else can find what it finds. The weight is 0, or not a number, where nothing goes on.
+        u1 (N,) chooses the lobe (None where there is but one), u2 (2, N) the direction; `uniformly` over the hemisphere
+        instead of as the rough lobes have it. The pdf of a specular lobe is inf: nothing else can find what it finds.
+        The weight is 0, or not a number, where nothing goes on.
         """
         if self.rough:
-            wi = self._sample_rough(surface.ns, surface.wo, u1, u2)
+            wi = self._sample_uniformly(surface.ns, u2) if uniformly else self._sample_rough(surface.ns, surface.wo, u1, u2)
             f, pdf = self.eval(surface.ns, surface.wo, wi)
+            if uniformly:
+                pdf = np.full_like(wi[0], 0.5 * INV_PI) * self._rough_share()
             cos = dot(surface.ns, wi)
             # Below the geometric surface there is nothing to reflect into; such paths end, and still count.
             weight = f * (cos * ((cos > 0) & (dot(surface.n, wi) > 0)) / pdf)
@@ -120,6 +125,14 @@ class Reflection:
             lanes = self._chosen(i, u1, u2)
             wi[:, lanes] = lobe.bsdf.sample(_rows(lobe.k, lanes), n.take(lanes, axis=1), wo.take(lanes, axis=1), u2.take(lanes, axis=1))
         return wi
+
+    @staticmethod
+    def _sample_uniformly(n, u2):
+        return to_world(n, square_to_uniform_hemisphere(u2))
+
+    def _rough_share(self):
+        """The probability with which one of the rough lobes is chosen."""
+        return self.shares[: len(self.rough)].sum(axis=0, dtype=np.float32) if self.specular else np.float32(1)
 
     def _chosen(self, i, u1, u2):
         """The lanes whose u1 falls to lobe i."""

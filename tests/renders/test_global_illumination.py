@@ -10,9 +10,8 @@ import numpy as np
 import pytest
 
 from glanz.engine import AreaLight, Lambert, Material, PerspectiveCamera, Phong, PointLight, SpotLight
-from glanz.engine.integrators import path
 from glanz.engine.maths.hashing import mix
-from glanz.engine.wavefront import emission
+from glanz.engine.wavefront import continuation, emission
 from glanz.engine.wavefront.film import Film
 from glanz.engine.wavefront.loop import trace
 from glanz.engine.wavefront.records import Rays
@@ -34,7 +33,7 @@ def furnace(mesh, r, emission=1.0):
 def without_shadow_rays(monkeypatch, scene, settings):
     """A `Plan` that scatters only, weighs nothing and never ends a path: no noise is left in a furnace."""
     monkeypatch.setattr(emission, "power_heuristic", lambda pdf, other: np.float32(1))
-    monkeypatch.setattr(path, "ROULETTE_DEPTH", 10**9)
+    monkeypatch.setattr(continuation, "ROULETTE_DEPTH", 10**9)
     return h.replaced(h.plan_of(scene, settings), on_surface=())
 
 
@@ -82,13 +81,13 @@ def test_the_series_catches_a_bounce_too_many_or_too_few():
 
 
 def test_the_series_catches_roulette_that_forgets_its_probability(monkeypatch):
-    survive = path.survive
+    survive = continuation.survive
 
     def forgetful(*args):
         alive, q = survive(*args)
         return alive, np.ones_like(q)
 
-    monkeypatch.setattr(path, "survive", forgetful)
+    monkeypatch.setattr(continuation, "survive", forgetful)
     image = h.pixels(furnace(h.box(), 0.8), h.settings(width=16, height=16, samples=64, max_depth=10))
     assert not h.mean_is(image[0], series(1.0, 0.8, 10))
 
@@ -99,7 +98,7 @@ def test_roulette_does_not_change_the_mean(monkeypatch, r):
     scene, settings = furnace(h.box(), r), h.settings(width=16, height=16, samples=32, max_depth=12)
     images = [h.pixels(scene, settings)]
     for start in (0, 10**9):
-        monkeypatch.setattr(path, "ROULETTE_DEPTH", start)
+        monkeypatch.setattr(continuation, "ROULETTE_DEPTH", start)
         images.append(h.pixels(scene, h.replaced(settings, seed=start + 1)))
     for a, b in ((0, 1), (0, 2), (1, 2)):
         assert h.means_agree(images[a][0], images[b][0], floor=1e-6)

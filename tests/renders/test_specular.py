@@ -5,7 +5,7 @@ import pytest
 
 from glanz.engine import Dielectric, Lambert, Material, Mirror, PerspectiveCamera, render_image
 from glanz.engine.bsdfs import dielectric
-from glanz.engine.integrators import path
+from glanz.engine.wavefront import continuation
 from glanz.tests import helpers as h
 
 CAMERA = PerspectiveCamera.look_at((0.1, -4, 0.3), (0, 0, 0), fov=0.6)
@@ -62,7 +62,7 @@ def test_a_slab_of_glass_passes_what_its_round_trips_add_up_to(depth, expected):
 
 def test_light_reflected_a_thousand_times_between_mirrors_is_the_power_of_the_reflectance(monkeypatch):
     """F5: .999^1000 = .367695 of what glows at the end, to the rounding of 1,000 float32 products."""
-    monkeypatch.setattr(path, "ROULETTE_DEPTH", 10**6)
+    monkeypatch.setattr(continuation, "ROULETTE_DEPTH", 10**6)
     mirror = Material(name="mirror", lobes=(Mirror((0.999,) * 3),))
     # A ray that starts in the middle at 45 degrees climbs as far as the gap is wide: 1,000 m of mirror reflect it 1,000 times.
     walls = [h.thing(h.quad((x, 0, 500), (0, 9, 0), (0, 0, 1000)), mirror) for x in (-0.5, 0.5)]

@@ -1,0 +1,25 @@
+"""The rendering equation as it is written: directions are uniform over the hemisphere, whatever the material.
+
+The lecture's first estimator, 2 pi / N sum f L cos; to see what importance sampling of the BSDF buys.
+"""
+
+import numpy as np
+
+from ..wavefront.continuation import go_on
+from ..wavefront.numbers import Dimension
+from . import registry
+
+
+@registry.add
+class NaivePath:
+    """Uniform directions and no shadow rays: the same picture once more, with the most noise of all; for teaching."""
+
+    key = "path_naive"
+    label = "Naive Path Tracing"
+    samples_lights = False
+
+    @staticmethod
+    def scatter(plan, rays, surface, reflection):
+        u1 = plan.choose_lobe(plan, rays)
+        wi, weight, pdf = reflection.scatter(surface, u1, plan.numbers.two(rays, Dimension.DIRECTION), uniformly=True)
+        return go_on(plan, rays, surface, wi, weight, np.full_like(pdf, np.inf))

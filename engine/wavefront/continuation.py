@@ -1,0 +1,32 @@
+"""How paths go on, or end: what integrators that follow one ray from each surface share."""
+
+import numpy as np
+
+from .numbers import Dimension
+from .records import Rays
+
+ROULETTE_DEPTH = 1
+"""Paths of more bounces than this survive with the square root of their throughput."""
+
+
+def go_on(plan, rays, surface, wi, weight, pdf):
+    """The batches (one) of `rays` that leave `surface` along wi (3, N), with throughput times weight (3, N)."""
+    beta = rays.beta * weight
+    alive, q = survive(plan, rays, beta)
+    beta /= q
+    scattered = Rays(plan.leave(surface, wi), wi, beta, pdf, rays.slot, rays.key, rays.sample, rays.depth + 1)
+    return (scattered if alive.all() else scattered.take(np.nonzero(alive)[0]),)
+
+
+def survive(plan, rays, beta):
+    """Which paths go on (N,), and the probability q (N,) with which they do.
+
+    Russian roulette (Arvo and Kirk 1990): a path that survives counts 1 / q, so the mean stays what it was.
+    """
+    brightest = np.maximum(np.maximum(beta[0], beta[1]), beta[2])
+    alive = brightest > 0
+    if rays.depth < ROULETTE_DEPTH:
+        return alive, np.ones_like(brightest)
+    q = np.sqrt(np.minimum(brightest, 1))
+    alive &= plan.numbers.independent(rays, Dimension.ROULETTE) < q
+    return alive, q
