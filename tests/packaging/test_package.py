@@ -22,7 +22,7 @@ def test_every_folder_with_code_is_in_the_package():
 
 
 def test_the_version_is_the_same_everywhere():
-    latest = re.search(r"^## (\S+)", (ROOT / "CHANGELOG.md").read_text(), re.MULTILINE)[1]
+    latest = re.search(r"^## (\d\S+)", (ROOT / "CHANGELOG.md").read_text(), re.MULTILINE)[1]
     assert {PROJECT["project"]["version"], MANIFEST["version"], engine.__version__, VERSION, latest} == {"0.1.0"}
 
 
