@@ -41,9 +41,13 @@ class GlanzCaptureEngine(bpy.types.RenderEngine):
     def _export(self, depsgraph):
         settings = settings_of(depsgraph.scene_eval, depsgraph.view_layer_eval, **self.overrides)
         camera = self.camera_override
+        views = [view.name for view in depsgraph.scene.render.views if view.use] if depsgraph.scene.render.use_multiview else []
+        self.active_view_set(views[0] if views else "")
         scene, warnings = export_scene(
             depsgraph, settings, camera, camera and self.camera_model_matrix(camera), camera and self.camera_shift_x(camera)
         )
+        if len(views) > 1:
+            warnings = (*warnings, f"only view '{views[0]}' is rendered, not: {', '.join(views[1:])}")
         return scene, settings, warnings
 
 

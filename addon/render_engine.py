@@ -1,6 +1,7 @@
 """The render engine that Blender sees: export, render, write tiles, listen for Esc."""
 
 from contextlib import closing, suppress
+from dataclasses import replace
 
 import bpy
 
@@ -41,38 +42,43 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
     def _render(self, depsgraph):
         backend.load_or_raise()
         from ..engine import metadata, render
-        from .export import export_scene
+        from .export import export_scene, export_view
         from .results import make_room, stamp, write_tile
         from .settings import settings_of
 
         settings = settings_of(depsgraph.scene_eval, depsgraph.view_layer_eval, width=self.resolution_x, height=self.resolution_y)
         layer = depsgraph.view_layer.name
-        make_room(self, settings, layer)
+        views = make_room(self, settings, layer)
         self.update_stats("", "Exporting the scene")
-        camera = self.camera_override
-        scene, notes = export_scene(
-            depsgraph,
-            settings,
-            camera,
-            camera and self.camera_model_matrix(camera),
-            camera and self.camera_shift_x(camera),
-            self._check,
-        )
         warnings = Warnings(self)
+        scene, notes = export_scene(depsgraph, settings, *self._camera(views[0]), self._check)
         warnings.show(notes)
         stamp(self, metadata(scene, settings))
         self.update_stats("", "Preparing the scene")
         status = Status(self, settings.samples)
-        # Closing the generator joins its threads, so none is left when Blender goes on, whatever happens here.
-        with closing(render(scene, settings)) as progress:
-            for step in progress:
-                warnings.show(step.warnings)
-                for tile in step.tiles:
-                    write_tile(self, tile, settings.region, layer)
-                status.show(step.done)
-                if self.is_cancelled():
-                    break
+        for number, view in enumerate(views):
+            if number:
+                # The eyes differ in their camera, and in their noise, or it would seem to float in depth.
+                camera = export_view(depsgraph, settings, *self._camera(view))
+                scene, settings = replace(scene, camera=camera), replace(settings, seed=settings.seed + 1)
+            # Closing the generator joins its threads, so none is left when Blender goes on, whatever happens here.
+            with closing(render(scene, settings)) as progress:
+                for step in progress:
+                    warnings.show(step.warnings)
+                    for tile in step.tiles:
+                        write_tile(self, tile, settings.region, layer, view)
+                    status.show((number + step.done) / len(views))
+                    if self.is_cancelled():
+                        break
+            if self.is_cancelled():
+                break
         warnings.close()
+
+    def _camera(self, view):
+        """(camera object, matrix, horizontal shift) of `view`, a name of Blender's; "" where there is but one."""
+        self.active_view_set(view)
+        camera = self.camera_override
+        return camera, camera and self.camera_model_matrix(camera), camera and self.camera_shift_x(camera)
 
     def is_cancelled(self):
         """Whether the user pressed Esc."""

@@ -45,7 +45,7 @@ def make_room(engine, settings, layer):
     """Let Blender allocate its picture now, before anything can go wrong.
 
     It does so at the first result, and saving a picture that never had one is a crash; so is having no memory for it.
-    Raises MemoryError where the memory is not to be had.
+    Raises MemoryError where the memory is not to be had. Returns the names of the views, ("",) where there is but one.
     """
     x0, y0, x1, y1 = settings.region
     channels = sum(len(PASSES[key].channels) for key in settings.passes)
@@ -55,8 +55,8 @@ def make_room(engine, settings, layer):
         np.empty(size, np.uint8)
     except MemoryError:
         raise MemoryError(f"{x1 - x0}x{y1 - y0} px with {channels} channels take {size / 2**30:.1f} GB") from None
-    with open_result(engine, (0, 0, 1, 1), layer):
-        pass
+    with open_result(engine, (0, 0, 1, 1), layer) as result:
+        return tuple(view.name for view in result.views) or ("",)
 
 
 def write_tile(engine, tile, region, layer, view=""):

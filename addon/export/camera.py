@@ -10,7 +10,7 @@ _SMALLEST_FSTOP = 1e-5
 """As in Cycles: Blender allows 0."""
 
 
-def export_camera(camera, render, width, height, findings, matrix=None, shift_x=None):
+def export_camera(camera, render, width, height, matrix=None, shift_x=None):
     """The engine's camera for the camera object `camera` (evaluated) and a full frame of `width` x `height` px.
 
     `matrix` and `shift_x` replace the camera's own where Blender knows better (stereo views). Raises SceneError where

@@ -20,7 +20,7 @@ def export_scene(depsgraph, settings, camera=None, matrix=None, shift_x=None, ch
     scene = depsgraph.scene_eval
     view_layer = depsgraph.view_layer_eval
     # The camera first: where there is none, no one should wait for the meshes.
-    camera = export_camera(camera or scene.camera, scene.render, settings.width, settings.height, findings, matrix, shift_x)
+    camera = export_view(depsgraph, settings, camera, matrix, shift_x)
     _note_ignored(scene, findings)
     override = _evaluated(view_layer.material_override, depsgraph)
     objects, lights = export_objects(depsgraph, findings, override, check)
@@ -35,6 +35,16 @@ def export_scene(depsgraph, settings, camera=None, matrix=None, shift_x=None, ch
     return result, findings.lines()
 
 
+def _is_spherical(camera):
+    return bool(camera and camera.type == "CAMERA" and camera.data.type == "PANO" and camera.data.stereo.use_spherical_stereo)
+
+
+def export_view(depsgraph, settings, camera=None, matrix=None, shift_x=None):
+    """The camera of another view of the same scene; as in `export_scene`."""
+    scene = depsgraph.scene_eval
+    return export_camera(camera or scene.camera, scene.render, settings.width, settings.height, matrix, shift_x)
+
+
 def _evaluated(datablock, depsgraph):
     return datablock and datablock.evaluated_get(depsgraph)
 
@@ -46,7 +56,7 @@ def _note_ignored(scene, findings):
         (render.use_motion_blur, "motion blur is not rendered"),
         (render.film_transparent, "the film is not transparent, the world is always seen"),
         (render.use_freestyle, "freestyle lines are not rendered"),
-        (render.use_multiview, "stereo is not supported, all views show the same picture"),
+        (render.use_multiview and _is_spherical(scene.camera), "spherical stereo is not rendered, both eyes keep their place"),
     ):
         if is_on:
             findings.note(what, name)

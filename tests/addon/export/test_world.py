@@ -61,7 +61,7 @@ def test_a_view_layers_world_override_counts():
 
 @pytest.mark.parametrize(
     ("setting", "words"),
-    [("use_motion_blur", "motion blur"), ("film_transparent", "film"), ("use_freestyle", "freestyle"), ("use_multiview", "stereo")],
+    [("use_motion_blur", "motion blur"), ("film_transparent", "film"), ("use_freestyle", "freestyle")],
 )
 def test_render_settings_that_are_not_followed_are_named(setting, words):
     setattr(bpy.context.scene.render, setting, True)
