@@ -56,7 +56,7 @@ def _note_ignored(scene, findings):
         (render.use_motion_blur, "motion blur is not rendered"),
         (render.film_transparent, "the film is not transparent, the world is always seen"),
         (render.use_freestyle, "freestyle lines are not rendered"),
-        (render.use_multiview and _is_spherical(scene.camera), "spherical stereo is not rendered, both eyes keep their place"),
+        (render.use_multiview and _is_spherical(scene.camera), "spherical stereo is not rendered, each eye stays where it is"),
     ):
         if is_on:
             findings.note(what, name)

@@ -210,6 +210,7 @@ BAD = {
     "focus distance is 0": {"lens": Lens(radius=1.0, focus_distance=0.0)},
     "focus distance is nan": {"lens": Lens(radius=1.0, focus_distance=math.nan)},
     "number of aperture blades is 2": {"lens": Lens(blades=2)},
+    "number of aperture blades is 3.5": {"lens": Lens(blades=3.5)},
     "number of aperture blades is -3": {"lens": Lens(blades=-3)},
     "aperture rotation is inf": {"lens": Lens(rotation=math.inf)},
     "aperture ratio is 0": {"lens": Lens(ratio=0.0)},
