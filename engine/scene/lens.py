@@ -30,10 +30,11 @@ class Lens:
 
     def check(self, owner):
         """Raises SceneError, naming the camera `owner`, for values out of range."""
+        is_polygon = self.blades >= 3 and self.blades % 1 == 0
         for name, value, is_right, allowed in (
             ("aperture radius", self.radius, 0 <= self.radius < math.inf, "finite, from 0 on"),
             ("focus distance", self.focus_distance, self.focus_distance > 0, "above 0"),
-            ("number of aperture blades", self.blades, self.blades == 0 or (self.blades >= 3 and self.blades % 1 == 0), "0 for a disk, or whole from 3 on"),
+            ("number of aperture blades", self.blades, self.blades == 0 or is_polygon, "0 for a disk, or whole from 3 on"),
             ("aperture rotation", self.rotation, math.isfinite(self.rotation), "finite"),
             ("aperture ratio", self.ratio, 0 < self.ratio < math.inf, "finite, above 0"),
         ):
