@@ -44,7 +44,7 @@ def _add_render(commands):
         ("max-depth", int, "bounces; 0 is direct light only"),
         ("seed", int, "another number, other noise"),
         ("threads", int, "worker threads; 0: one per processor"),
-        ("pixel-filter", str, "pixel filter: box, blackman_harris"),
+        ("pixel-filter", str, "pixel filter: blackman_harris, gaussian, tent, mitchell, box"),
     ):
         command.add_argument(f"--{name}", type=kind, metavar=name[0].upper() if kind is str else "N", help=text)
     command.add_argument("--resolution", type=resolution, metavar="WxH", help="size of the full frame in pixels")

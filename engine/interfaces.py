@@ -162,7 +162,11 @@ class Sampler(Protocol):
 
 @runtime_checkable
 class Filter(Protocol):
-    """A pixel filter, sampled by its own shape so that every sample weighs the same."""
+    """A pixel filter, sampled by its own shape so that every sample weighs the same.
+
+    One with negative lobes also has negative_mass (of the integral of |f| below 0, where that of f is 1) and
+    negative_offset(u2, width), which samples there as `offset` does where f is positive (`wavefront.signed_filter`).
+    """
 
     key: str
     label: str

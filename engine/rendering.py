@@ -15,6 +15,7 @@ from .scene.validate import validate
 from .wavefront.camera_rays import camera_rays
 from .wavefront.film import Film
 from .wavefront.loop import trace
+from .wavefront.signed_filter import sample_weights
 
 LANES = 2**16
 """Paths in a batch: enough to hide Python, few enough for the cache."""
@@ -177,8 +178,9 @@ def _render_tile(plan, tile, work):
     py, px = np.divmod(np.arange(width * height), width)
     px, py = px + x, py + y
     shown = time.monotonic()
+    weights = sample_weights(plan.filter, plan.settings.samples)
     for window, first, count in _batches(width * height, plan.settings.samples):
-        film.open(count, window)
+        film.open(count, window, weights[first : first + count])
         rays = camera_rays(plan, px[window], py[window], first, count)
         if not trace(plan, rays, film, work.cancelled.is_set):
             return None

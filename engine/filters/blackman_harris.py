@@ -4,9 +4,8 @@ from functools import lru_cache
 
 import numpy as np
 
+from ..maths.tabulated import inverse_cdf, look_up
 from . import registry
-
-_STEPS = 2**14
 
 
 @registry.add
@@ -19,12 +18,7 @@ class BlackmanHarris:
 
     @staticmethod
     def offset(u2, width):
-        """The inverse distribution, tabulated and linear between its entries; its second moment is right to 1e-4."""
-        table = _inverse_cdf()
-        place = u2 * _STEPS
-        below = place.astype(np.int32)
-        fraction = place - np.floor(place)
-        return width * (table[below] + fraction * (table[below + 1] - table[below]))
+        return width * look_up(_table(), u2)
 
 
 def window(x):
@@ -34,10 +28,5 @@ def window(x):
 
 
 @lru_cache(maxsize=1)
-def _inverse_cdf():
-    edges = np.linspace(-0.5, 0.5, 16 * _STEPS + 1)
-    middles = 0.5 * (edges[:-1] + edges[1:])
-    cdf = np.concatenate(([0.0], np.cumsum(window(middles))))
-    table = np.interp(np.linspace(0, 1, _STEPS + 1), cdf / cdf[-1], edges).astype(np.float32)
-    # A symmetric table keeps the image from moving by a fraction of a pixel.
-    return 0.5 * (table - table[::-1])
+def _table():
+    return inverse_cdf(window)

@@ -5,6 +5,7 @@ import numpy as np
 from ..maths.warps import square_to_disk, square_to_polygon
 from .numbers import Dimension
 from .records import Rays
+from .signed_filter import negative_samples, offsets
 
 
 def camera_rays(plan, px, py, first, count):
@@ -25,7 +26,8 @@ def camera_rays(plan, px, py, first, count):
         sample=np.repeat(np.arange(first, first + count, dtype=np.uint32), px.size),
         depth=0,
     )
-    dx, dy = plan.filter.offset(plan.numbers.two(rays, Dimension.FILTER), settings.filter_width)
+    negative = negative_samples(plan.filter, settings.samples)[first : first + count]
+    dx, dy = offsets(plan.filter, plan.numbers.two(rays, Dimension.FILTER), settings.filter_width, negative)
     # Measured from the middle of the frame, where half pixels are exact.
     x = np.tile((px + (0.5 - 0.5 * settings.width)).astype(np.float32), count) + dx
     y = np.tile((py + (0.5 - 0.5 * settings.height)).astype(np.float32), count) + dy

@@ -15,8 +15,12 @@ class Film:
         self.samples = np.zeros(pixels, np.int64)
         self.bad_samples = 0
 
-    def open(self, samples, window):
-        """Start `samples` more samples of the pixels `window`, a slice; further batches open the other pixels."""
+    def open(self, samples, window, weights=()):
+        """Start `samples` more samples of the pixels `window`, a slice; further batches open the other pixels.
+
+        weights (samples,) is what each counts in the mean, 1 on average over all samples of a pixel; empty: all count 1.
+        """
+        self._weights = weights
         self._window = window
         self._count = samples
         slots = samples * (window.stop - window.start)
@@ -46,7 +50,7 @@ class Film:
             total = self.sums[p.key][:, self._window]
             if p.is_average:
                 for i in range(self._count):
-                    total += samples[:, i]
+                    total += samples[:, i] * self._weights[i] if len(self._weights) else samples[:, i]
             elif is_first:
                 total += samples[:, 0]
         self.samples[self._window] += self._count
