@@ -6,9 +6,9 @@ two samples share one of the columns * rows thin strips in x, nor in y (Kensler 
 Pixar TM 13-01, section 2). Where columns * rows > samples some cells and their strips stay empty. In one dimension
 it is the same as jittering.
 
-The error falls as N^-3/2 for light that is a sum f(x) + g(y), and is below that of jittering at edges by a constant. But as
-the permutations are the same all over, it falls as N^-3/4 only for light like exp(x + y): from about 200 samples on
-jittering is better there, and Sobol anyway (docs/convergence.md).
+The error falls as N^-3/2 for light that is a sum f(x) + g(y) or fades out to the borders, and is below that of jittering at
+edges by a constant. As the permutations are the same all over, it falls as N^-3/4 only where the difference between
+opposite borders varies along them, as for exp(x + y): there jittering is better from about 200 samples on, and Sobol anyway.
 """
 
 import numpy as np
