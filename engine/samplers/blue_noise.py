@@ -5,7 +5,8 @@ ACM TOG 39(6): pixels are numbered along a Z curve whose quads are shuffled at e
 and each takes the next samples of one Owen-scrambled sequence. The pixels of every aligned square of 2^k then have a
 well-spread set in common: where one is too bright the next is too dark, and the eye, or any blur, averages them. A pixel
 by itself has as good a set as from the Sobol sampler. Shuffle and scramble are the hashes of `maths.sobol`, which swap the
-halves of each level (8 of the 24 orders of a quad). The curve fills blocks of _SIDE x _SIDE pixels; each has its own sequence.
+halves of each level; half of the quads have x and y swapped (16 of the 24 orders). The curve fills blocks of _SIDE x _SIDE
+pixels; each has its own sequence.
 """
 
 import numpy as np
@@ -30,7 +31,8 @@ class BlueNoise:
         """The number of a pixel along the curve in the lower _BITS, a hash of its block and the seed above."""
         block = mix((py // _SIDE * width + px // _SIDE).astype(np.uint32) ^ mix_int(seed))
         block &= np.uint32(2**32 - 2**_BITS)
-        return block | _every_other_bit(px % _SIDE) | _every_other_bit(py % _SIDE) << np.uint32(1)
+        place = _every_other_bit(px % _SIDE) | _every_other_bit(py % _SIDE) << np.uint32(1)
+        return block | _turned(place, block)
 
     @staticmethod
     def one(key, sample, dimension, samples):
@@ -50,6 +52,19 @@ def _points(key, sample, dimension, samples, coordinates):
     index = key << np.uint32(sample_bits)
     index |= sample
     return points(index, sequence, coordinates)
+
+
+def _turned(place, block):
+    """`place` (N,) along the curve, with x and y swapped in every other quad of each level, at random.
+
+    Halves are complementary first of all; were they always left and right, the noise would stand in upright lines.
+    """
+    result = place.copy()
+    for low in range(0, _BITS, 2):
+        quad = mix((place >> np.uint32(low + 2)) ^ block ^ mix_int(low))
+        differ = (place >> np.uint32(low) ^ place >> np.uint32(low + 1)) & quad & np.uint32(1)
+        result ^= differ * np.uint32(3 << low)
+    return result
 
 
 def _every_other_bit(x):

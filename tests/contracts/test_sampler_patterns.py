@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from glanz.engine import SAMPLERS, Settings
+from glanz.engine import SAMPLERS, AreaLight, Settings
 from glanz.engine.maths import sobol as digits
 from glanz.engine.maths.hashing import mix
 from glanz.engine.maths.strata import grid
@@ -14,6 +14,7 @@ from glanz.engine.samplers.random import Random
 from glanz.engine.samplers.sobol import Sobol
 from glanz.engine.samplers.stratified import Stratified
 from glanz.engine.wavefront.numbers import Numbers
+from glanz.tests import helpers as h
 
 
 def pixels(sampler, width, height=None, seed=0):
@@ -176,9 +177,42 @@ def test_blue_noise_has_little_error_at_low_frequencies():
     check_blue_noise(BlueNoise)
 
 
+def check_no_direction():
+    """Neighbours left and right are as unlike as those above and below: correlations within 0.05 of each other."""
+    across, down = [], []
+    for seed in range(4):
+        error = two(BlueNoise, pixels(BlueNoise, SIDE, seed=seed), 1, 8)[0, :, 0].reshape(SIDE, SIDE) - 0.5
+        across.append((error[:, 1:] * error[:, :-1]).mean() * 12)
+        down.append((error[1:] * error[:-1]).mean() * 12)
+    assert abs(np.mean(across) - np.mean(down)) <= 0.05
+    assert np.mean(across) < -0.1
+
+
+def test_blue_noise_has_no_direction():
+    check_no_direction()
+
+
+def test_the_direction_of_blue_noise_catches_quads_that_are_never_turned(monkeypatch):
+    monkeypatch.setattr("glanz.engine.samplers.blue_noise._turned", lambda place, block: place)
+    with pytest.raises(AssertionError):
+        check_no_direction()
+
+
 def test_the_keys_of_blue_noise_tell_all_pixels_of_a_block_apart():
     assert np.unique(pixels(BlueNoise, 256)).size == 256**2
     assert np.unique(pixels(BlueNoise, 1024, 512)).size > 0.999 * 1024 * 512
+
+
+@pytest.mark.parametrize("sampler", SAMPLERS)
+def test_a_picture_depends_neither_on_tiles_nor_on_its_border(sampler):
+    """H3, across a block of blue noise too: its pixels are known by their place in the full frame."""
+    scene = h.receiver([AreaLight(world_from_light=h.affine(np.eye(3), (0, 0, 1)))], distance=0.5)
+    settings = h.settings(width=264, height=12, samples=2, max_depth=0, sampler=sampler)
+    whole = h.pixels(scene, settings)
+    assert h.same_bits(h.pixels(scene, h.replaced(settings, tile_size=5, threads=2)), whole)
+    assert h.same_bits(h.pixels(scene, h.replaced(settings, border=(250, 3, 261, 9))), whole[:, 3:9, 250:261])
+    if sampler != "grid":
+        assert not h.same_bits(h.pixels(scene, h.replaced(settings, seed=1)), whole)
 
 
 # H1
