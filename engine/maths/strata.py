@@ -5,12 +5,26 @@ import math
 import numpy as np
 
 from ..constants import ONE_MINUS_EPS32
+from .hashing import mix, permute, to_unit
 
 
 def grid(samples):
     """(columns, rows) of the two-dimensional cells: the most square grid with at least `samples` of them."""
     rows = math.isqrt(samples)
     return -(-samples // rows), rows
+
+
+def interval(sample, samples, h):
+    """One number (N,) in each of `samples` intervals, which one a permutation by the key h (N,) says."""
+    return place(permute(sample, samples, h), to_unit(mix(h ^ sample)), samples)
+
+
+def cell(sample, columns, rows, h):
+    """(column, row), (N,) uint32 each: the cell of `sample` (N,), a permutation by the key h (N,) says which."""
+    column = permute(sample, columns * rows, h)
+    row = column // np.uint32(columns)
+    column -= row * np.uint32(columns)
+    return column, row
 
 
 def place(cell, jitter, cells):

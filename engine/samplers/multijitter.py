@@ -13,8 +13,8 @@ opposite borders varies along them, as for exp(x + y): there jittering is better
 
 import numpy as np
 
-from ..maths.hashing import mix, mix_int, permute, to_unit, to_unit2
-from ..maths.strata import grid, place
+from ..maths.hashing import mix, mix_int, permute, to_unit2
+from ..maths.strata import cell, grid, interval, place
 from . import registry
 
 
@@ -27,16 +27,13 @@ class Multijitter:
 
     @staticmethod
     def one(key, sample, dimension, samples):
-        h = mix(key ^ mix_int(dimension))
-        return place(permute(sample, samples, h), to_unit(mix(h ^ sample)), samples)
+        return interval(sample, samples, mix(key ^ mix_int(dimension)))
 
     @staticmethod
     def two(key, sample, dimension, samples):
         h = mix(key ^ mix_int(dimension))
         columns, rows = grid(samples)
-        column = permute(sample, columns * rows, h)
-        row = column // np.uint32(columns)
-        column -= row * np.uint32(columns)
+        column, row = cell(sample, columns, rows, h)
         u2 = to_unit2(mix(h ^ sample))
         h = mix(h)
         x = permute(row, rows, h)

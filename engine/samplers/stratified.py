@@ -6,10 +6,8 @@ takes which cell is a random permutation, its own for each pixel and dimension, 
 and the mean is unbiased for any number of samples.
 """
 
-import numpy as np
-
-from ..maths.hashing import mix, mix_int, permute, to_unit, to_unit2
-from ..maths.strata import grid, place
+from ..maths.hashing import mix, mix_int, to_unit2
+from ..maths.strata import cell, grid, interval, place
 from . import registry
 
 
@@ -22,17 +20,14 @@ class Stratified:
 
     @staticmethod
     def one(key, sample, dimension, samples):
-        h = mix(key ^ mix_int(dimension))
-        return place(permute(sample, samples, h), to_unit(mix(h ^ sample)), samples)
+        return interval(sample, samples, mix(key ^ mix_int(dimension)))
 
     @staticmethod
     def two(key, sample, dimension, samples):
         h = mix(key ^ mix_int(dimension))
         columns, rows = grid(samples)
-        cell = permute(sample, columns * rows, h)
-        row = cell // np.uint32(columns)
-        cell -= row * np.uint32(columns)
+        column, row = cell(sample, columns, rows, h)
         u2 = to_unit2(mix(h ^ sample))
-        place(cell, u2[0], columns)
+        place(column, u2[0], columns)
         place(row, u2[1], rows)
         return u2
