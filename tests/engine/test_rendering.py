@@ -5,7 +5,6 @@ import numpy as np
 from glanz.engine import Settings, rendering
 from glanz.tests import helpers as h
 
-
 QUAD = h.scene([h.thing(h.quad(), h.lambert(0.5, emission=1.0))])
 
 
