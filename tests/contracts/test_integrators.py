@@ -49,9 +49,11 @@ def test_direct_light_of_a_point_is_exact(integrator):
     np.testing.assert_allclose(image, 2 / 3 / np.pi, rtol=1e-5)
 
 
-@each
-def test_all_integrators_find_the_same_light(integrator):
-    """A lamp, a ball of metal and glass in a bright room: means of the picture agree; detects 2 %."""
+def check_same_light(integrator):
+    """A lamp, a ball of metal and glass in a bright room: the picture is as bright as that of 400 other paths per pixel.
+
+    With these seeds the means differ by at most 0.16 %; 0.6 % is allowed.
+    """
     lobes = (Lambert((0.3,) * 3), Phong((0.2,) * 3, 5.0), Mirror((0.2,) * 3), Dielectric(1.5, (0.3,) * 3, (0.3,) * 3))
     ball = h.thing(h.icosphere(2, 0.3, (0, 0, 0), smooth=True), Material(name="ball", lobes=lobes))
     room = h.thing(h.box((-1, -1, -1), (1, 1, 1)), h.lambert(0.5, emission=0.2))
@@ -60,8 +62,26 @@ def test_all_integrators_find_the_same_light(integrator):
     settings = h.settings(width=24, height=24, samples=64, max_depth=4, sampler="random")
     truth = h.pixels(scene, h.replaced(settings, samples=400, seed=9))[0].mean()
     image = h.pixels(scene, h.replaced(settings, integrator=integrator.key, samples=400))[0]
-    blocks = image.reshape(4, 6, 4, 6).mean(axis=(1, 3)).reshape(-1)
-    assert abs(blocks.mean() / truth - 1) <= 0.02
+    assert abs(image.mean() / truth - 1) <= 0.006
+
+
+@each
+def test_all_integrators_find_the_same_light_as_path_tracing(integrator):
+    check_same_light(integrator)
+
+
+@pytest.mark.parametrize("integrator", [i for i in INTEGRATORS.values() if i is not Path], ids=lambda i: i.key)
+def test_the_comparison_catches_one_percent_at_every_bounce(integrator, monkeypatch):
+    scatter = integrator.scatter
+
+    def brighter(plan, rays, surface, reflection):
+        (scattered,) = scatter(plan, rays, surface, reflection)
+        scattered.beta[...] *= np.float32(1.01)
+        return (scattered,)
+
+    monkeypatch.setattr(integrator, "scatter", staticmethod(brighter))
+    with pytest.raises(AssertionError):
+        check_same_light(integrator)
 
 
 def test_blind_integrators_name_the_lights_that_stay_dark():
