@@ -197,15 +197,17 @@ class Pass(Protocol):
 
 @runtime_checkable
 class Integrator(Protocol):
-    """What an integrator pushes onto the stack of batches; everything else is the same loop for all of them.
+    """What an integrator puts onto the stack of the loop; everything else is the same loop for all of them.
 
     samples_lights  shadow rays look for lights; else only scattered rays find them
+    on_surface      the stages (plan, rays, surface, reflection, film) that do it
     """
 
     key: str
     label: str
     samples_lights: bool
+    on_surface: tuple
 
     @staticmethod
     def scatter(plan, rays, surface, reflection):
-        """The batches of rays, a tuple, that go on from where `rays` met `surface`."""
+        """The batches of rays, any iterable, that go on from where `rays` met `surface`; a generator makes them one by one."""

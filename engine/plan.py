@@ -7,11 +7,11 @@ from .arrays import Columns, columns
 from .registry import FILTERS, INTEGRATORS, PASSES, SAMPLERS
 from .scene.settings import Settings
 from .wavefront.camera_rays import bladed_aperture, round_aperture, through_the_lens, through_the_pinhole
-from .wavefront.clip import clip_row, meet_in_range, meet_nearest, start_in_range
-from .wavefront.direct import add_direct_light
+from .wavefront.clip import clip_row, meet_in_range, start_in_range
 from .wavefront.emission import add_emission
 from .wavefront.escape import add_background, add_light_hits
 from .wavefront.numbers import Numbers, one_of_the_lobes, only_lobe
+from .wavefront.visibility import closest, interact_at_rest, meet_nearest, occluded, unblocked
 from .world.compile import CompiledWorld, compile_world
 from .world.interaction import flat_normals, leave_in_front, leave_on_either_side, smooth_normals
 
@@ -20,13 +20,20 @@ from .world.interaction import flat_normals, leave_in_front, leave_on_either_sid
 class Plan:
     """Everything that stays the same while a picture is rendered.
 
-    aim             origins and directions (plan, rays, x, y) of camera rays
-    on_camera_rays  stages (plan, rays) before camera rays are traced
-    meet            the hits (plan, rays) of a batch
-    on_rays         stages (plan, rays, hits, film) for every batch: light met along the way
-    on_surface      stages (plan, rays, surface, reflection, film) at every surface: direct light
-    first_hits      the passes that record where camera rays hit
-    last_depth      the depth of the last rays that are traced
+    carry              what paths carry along: (name, first column (plan, rays)) of each
+    aim                origins and directions (plan, rays, x, y) of camera rays
+    on_camera_rays     stages (plan, rays) before camera rays are traced
+    closest, occluded  what lies along rays (plan, carried, o, d, limit), see `wavefront.visibility`
+    meet               the hits (plan, rays) of a batch
+    unblocked          the shadow rays (plan, rays, o, d, limit, candidate) that arrive
+    on_rays            stages (plan, rays, hits, film) for every batch: light met along the way
+    interact           the surface (plan, rays, hits) that a batch met
+    adjust_surface     stages (plan, rays, surface) -> surface: what changes its normals
+    adjust_reflection  stages (plan, rays, surface, reflection) -> reflection: what changes its lobes
+    on_surface         stages (plan, rays, surface, reflection, film) at every surface: direct light
+    on_leaving         stages (plan, rays, surface, scattered) that renew what scattered rays carry
+    first_hits         the passes that record where camera rays hit
+    last_depth         the depth of the last rays that are traced
     The other functions are choices that cost nothing where there is nothing to choose.
     """
 
@@ -36,12 +43,20 @@ class Plan:
     filter: type
     camera: type
     camera_k: Columns
+    carry: tuple
     aim: object
     aperture: object
     on_camera_rays: tuple
+    closest: object
+    occluded: object
     meet: object
+    unblocked: object
     on_rays: tuple
+    interact: object
+    adjust_surface: tuple
+    adjust_reflection: tuple
     on_surface: tuple
+    on_leaving: tuple
     first_hits: tuple
     passes: tuple
     scatter: object
@@ -64,7 +79,6 @@ class Plan:
             *((add_emission,) if needs.EMISSIVE_MESHES in requirements and world.emitters.count else ()),
         )
         can_sample = integrator.samples_lights and world.materials.rough_lobes and not world.lights.is_empty
-        on_surface = (add_direct_light,) if can_sample else ()
         is_clipped = needs.CLIP_RANGE in requirements
         camera = scene.camera
         scale = world.frame.scale
@@ -77,12 +91,20 @@ class Plan:
             filter=FILTERS[settings.pixel_filter],
             camera=type(camera),
             camera_k=columns([row]),
+            carry=(),
             aim=through_the_lens if needs.LENS in requirements else through_the_pinhole,
             aperture=bladed_aperture if camera.lens.blades else round_aperture,
             on_camera_rays=(start_in_range,) if is_clipped else (),
+            closest=closest,
+            occluded=occluded,
             meet=meet_in_range if is_clipped else meet_nearest,
+            unblocked=unblocked,
             on_rays=on_rays,
-            on_surface=on_surface,
+            interact=interact_at_rest,
+            adjust_surface=(),
+            adjust_reflection=(),
+            on_surface=integrator.on_surface if can_sample else (),
+            on_leaving=(),
             first_hits=tuple(p for p in chosen if p.at_first_hit),
             passes=chosen,
             scatter=integrator.scatter,

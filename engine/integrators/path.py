@@ -1,6 +1,7 @@
 """Path tracing: one ray goes on from every surface point (Kajiya 1986), and one goes to a light."""
 
 from ..wavefront.continuation import go_on
+from ..wavefront.direct import add_direct_light
 from ..wavefront.numbers import Dimension
 from . import registry
 
@@ -12,6 +13,7 @@ class Path:
     key = "path"
     label = "Path Tracing"
     samples_lights = True
+    on_surface = (add_direct_light,)
 
     @staticmethod
     def scatter(plan, rays, surface, reflection):

@@ -14,6 +14,7 @@ class BlindPath:
     key = "path_blind"
     label = "Path Tracing without Light Sampling"
     samples_lights = False
+    on_surface = ()
 
     @staticmethod
     def scatter(plan, rays, surface, reflection):

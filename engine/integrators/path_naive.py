@@ -17,6 +17,7 @@ class NaivePath:
     key = "path_naive"
     label = "Naive Path Tracing"
     samples_lights = False
+    on_surface = ()
 
     @staticmethod
     def scatter(plan, rays, surface, reflection):

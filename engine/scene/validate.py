@@ -58,8 +58,9 @@ def _check_object(o, warnings):
 
 
 def _check_material(material):
-    if not _is_colour(material.emission):
-        raise SceneError(f"material '{material.name}': emission is {material.emission}, allowed: three finite numbers from 0 on")
+    for name in ("emission", "ambient"):
+        if not _is_colour(value := getattr(material, name)):
+            raise SceneError(f"material '{material.name}': {name} is {value}, allowed: three finite numbers from 0 on")
     total = np.zeros(3)
     for lobe in material.lobes:
         if type(lobe) not in BSDFS.values():

@@ -69,15 +69,18 @@ class Material:
 
     lobes     BSDF values (`Lambert`, `Phong`, ...); none: black
     emission  radiance leaving both sides [W m^-2 sr^-1], linear Rec. 709
+    ambient   k_a of the lecture's illumination model, the share of each light that arrives everywhere; no other model knows it
     """
 
     name: str
     lobes: tuple = ()
     emission: tuple = (0.0, 0.0, 0.0)
+    ambient: tuple = (0.0, 0.0, 0.0)
 
     def __post_init__(self):
         object.__setattr__(self, "lobes", tuple(self.lobes))
-        object.__setattr__(self, "emission", tuple(float(c) for c in self.emission))
+        for name in ("emission", "ambient"):
+            object.__setattr__(self, name, tuple(float(c) for c in getattr(self, name)))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -26,6 +26,8 @@ def camera_rays(plan, px, py, first, count):
         sample=np.repeat(np.arange(first, first + count, dtype=np.uint32), px.size),
         depth=0,
     )
+    for name, start in plan.carry:
+        setattr(rays.carried, name, start(plan, rays))
     negative = negative_samples(plan.filter, settings.samples)[first : first + count]
     dx, dy = offsets(plan.filter, plan.numbers.two(rays, Dimension.FILTER), settings.filter_width, negative)
     # Measured from the middle of the frame, where half pixels are exact.

@@ -1,6 +1,8 @@
-"""What rays meet, and the clip range of the camera: the other rays know none."""
+"""The clip range of the camera: the other rays know none."""
 
 import numpy as np
+
+from .visibility import meet_nearest
 
 
 def clip_row(camera, scale):
@@ -14,15 +16,10 @@ def start_in_range(plan, rays):
     rays.o[...] += rays.d * (k.clip_start * plan.camera.ray_per_depth(k, rays.d))
 
 
-def meet_nearest(plan, rays):
-    """`Hits` of the nearest triangles."""
-    return plan.world.accel.closest(rays.o, rays.d)
-
-
 def meet_in_range(plan, rays):
-    """The same, but camera rays end where the clip range does."""
+    """`Hits` of a batch of rays, of which camera rays end where the clip range does."""
     if rays.depth:
         return meet_nearest(plan, rays)
     k = plan.camera_k
     limit = k.clip_length * plan.camera.ray_per_depth(k, rays.d)
-    return plan.world.accel.closest(rays.o, rays.d, limit.astype(np.float32, copy=False))
+    return plan.closest(plan, rays.carried, rays.o, rays.d, limit.astype(np.float32, copy=False))

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..arrays import Columns
 from .numbers import Dimension
 from .records import Rays
 
@@ -14,8 +15,17 @@ def go_on(plan, rays, surface, wi, weight, pdf):
     beta = rays.beta * weight
     alive, q = survive(plan, rays, beta)
     beta /= q
-    scattered = Rays(plan.leave(surface, wi), wi, beta, pdf, rays.slot, rays.key, rays.sample, rays.depth + 1)
+    scattered = leaving(plan, rays, surface, wi, beta, pdf)
     return (scattered if alive.all() else scattered.take(np.nonzero(alive)[0]),)
+
+
+def leaving(plan, rays, surface, wi, beta, pdf):
+    """The rays that leave `surface` along wi (3, N) with throughput beta (3, N), and carry on what `rays` carried."""
+    carried = Columns(**vars(rays.carried))
+    scattered = Rays(plan.leave(surface, wi), wi, beta, pdf, rays.slot, rays.key, rays.sample, rays.depth + 1, rays.split, carried)
+    for stage in plan.on_leaving:
+        stage(plan, rays, surface, scattered)
+    return scattered
 
 
 def survive(plan, rays, beta):

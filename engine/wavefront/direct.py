@@ -7,7 +7,6 @@ from ..maths.vectors import dot
 from .mis import power_heuristic
 from .numbers import Dimension
 
-_MOST_SHARE = 4
 _SHORTENED = np.float32(1 - 4 * EPS32)
 
 
@@ -25,18 +24,5 @@ def add_direct_light(plan, rays, surface, reflection, film):
     # Light from below the geometric surface would leak through it. (Not "> 0": what is not a number goes to the film,
     # which counts it.)
     candidate = ~(np.maximum(np.maximum(L[0], L[1]), L[2]) <= 0) & (cos > 0) & (dot(surface.n, wi) > 0)
-    lanes = np.nonzero(candidate & ~_blocked(world.accel, surface.o, wi, distance * _SHORTENED, candidate))[0]
-    film.add(rays.slot.take(lanes), L.take(lanes, axis=1))
-
-
-def _blocked(accel, o, d, limit, candidate):
-    """`accel.occluded` where `candidate` (N,); what it says elsewhere means nothing."""
-    count = np.count_nonzero(candidate)
-    if count * _MOST_SHARE > candidate.size * (_MOST_SHARE - 1):
-        # Packing costs more than a few rays of no length.
-        limit *= candidate
-        return accel.occluded(o, d, limit)
-    lanes = np.nonzero(candidate)[0]
-    blocked = np.zeros(candidate.size, bool)
-    blocked[lanes] = accel.occluded(o.take(lanes, axis=1), d.take(lanes, axis=1), limit.take(lanes))
-    return blocked
+    lanes, share = plan.unblocked(plan, rays, surface.o, wi, distance * _SHORTENED, candidate)
+    film.add(rays.slot.take(lanes), L.take(lanes, axis=1) * share)

@@ -1,8 +1,6 @@
-"""The one loop: a stack of batches, until it is empty."""
+"""The one loop: a stack of what is still to come, until it is empty."""
 
 import numpy as np
-
-from ..world.interaction import interact
 
 _FEW_SHARE = 16
 """Fewer misses than one in so many stay in their batch."""
@@ -11,7 +9,8 @@ _FEW_SHARE = 16
 def trace(plan, rays, film, is_cancelled=lambda: False):
     """Follow `rays` and all that the integrator makes of them; light goes into `film`. Returns False if cancelled.
 
-    The stack is depth first, so that an integrator that branches holds few batches at a time.
+    The stack holds iterators of batches, one for each depth: an integrator that branches makes the next batch when
+    the one before has been followed to its end, so its tree of rays never exists in memory as a whole.
     """
     # Infinite densities and 0 / 0 of lanes that are dropped are meant; what reaches the film is checked there.
     with np.errstate(all="ignore"):
@@ -20,11 +19,14 @@ def trace(plan, rays, film, is_cancelled=lambda: False):
 
 def _trace(plan, rays, film, is_cancelled):
     world = plan.world
-    stack = [rays]
+    stack = [iter((rays,))]
     while stack:
         if is_cancelled():
             return False
-        rays = stack.pop()
+        rays = next(stack[-1], None)
+        if rays is None:
+            stack.pop()
+            continue
         hits = plan.meet(plan, rays)
         for add_light in plan.on_rays:
             add_light(plan, rays, hits, film)
@@ -33,16 +35,20 @@ def _trace(plan, rays, film, is_cancelled):
         rays, hits = _only_hits(rays, hits)
         if not hits.prim.size:
             continue
-        surface = interact(world.triangles, plan.shading_normals, rays.d, hits)
+        surface = plan.interact(plan, rays, hits)
+        for adjust in plan.adjust_surface:
+            surface = adjust(plan, rays, surface)
         for p in plan.first_hits if rays.depth == 0 else ():
             film.first_hits[p.key][:, rays.slot] = p.values(plan, surface)
         if not world.materials.lobes:
             continue
         reflection = world.materials.at(surface.material)
+        for adjust in plan.adjust_reflection:
+            reflection = adjust(plan, rays, surface, reflection)
         for add_light in plan.on_surface:
             add_light(plan, rays, surface, reflection, film)
         if rays.depth < plan.last_depth:
-            stack.extend(plan.scatter(plan, rays, surface, reflection))
+            stack.append(iter(plan.scatter(plan, rays, surface, reflection)))
     return True
 
 

@@ -19,6 +19,7 @@ class Dimension(IntEnum):
     LOBE = 9
     DIRECTION = 10
     ROULETTE = 11
+    PASS = 12
 
 
 _PER_BOUNCE = 8
@@ -26,7 +27,10 @@ _PER_BOUNCE = 8
 
 @dataclass(frozen=True, slots=True)
 class Numbers:
-    """The random numbers of a render: a sampler and how many samples it is to spread over each dimension."""
+    """The random numbers of a render: a sampler and how many samples of a pixel it is to spread over each dimension.
+
+    Where paths have split, it spreads all their branches.
+    """
 
     sampler: type
     samples: int
@@ -37,15 +41,15 @@ class Numbers:
 
     def one(self, rays, dimension):
         """u1 (N,) for each ray at its depth."""
-        return self.sampler.one(rays.key, rays.sample, dimension + _PER_BOUNCE * rays.depth, self.samples)
+        return self.sampler.one(rays.key, rays.sample, dimension + _PER_BOUNCE * rays.depth, self.samples * rays.split)
 
     def independent(self, rays, dimension):
         """u1 (N,) without strata, for decisions that they cannot improve; the same for every sampler."""
-        return Random.one(rays.key, rays.sample, dimension + _PER_BOUNCE * rays.depth, self.samples)
+        return Random.one(rays.key, rays.sample, dimension + _PER_BOUNCE * rays.depth, self.samples * rays.split)
 
     def two(self, rays, dimension):
         """u2 (2, N) for each ray at its depth."""
-        return self.sampler.two(rays.key, rays.sample, dimension + _PER_BOUNCE * rays.depth, self.samples)
+        return self.sampler.two(rays.key, rays.sample, dimension + _PER_BOUNCE * rays.depth, self.samples * rays.split)
 
 
 def hashed_pixel(px, py, width, seed):

@@ -1,8 +1,10 @@
 """What travels between the stages."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
+
+from ..arrays import Columns
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -16,6 +18,8 @@ class Rays:
     key     (N,) uint32, the hash of each path's pixel
     sample  (N,) uint32, each path's sample
     depth   bounces behind these rays; 0 leaves the camera
+    split   how many rays of this depth stand for one sample of the pixel; their `sample` numbers count them all
+    carried what features take along a path, a column each; none where nothing asks for it
     """
 
     o: np.ndarray
@@ -26,6 +30,8 @@ class Rays:
     key: np.ndarray
     sample: np.ndarray
     depth: int
+    split: int = 1
+    carried: Columns = field(default_factory=Columns)
 
     def landed(self, lanes):
         """The rays `lanes` (M,) for what happens where they hit: origins and densities have done their work."""
@@ -38,6 +44,8 @@ class Rays:
             self.key.take(lanes),
             self.sample.take(lanes),
             self.depth,
+            self.split,
+            self.carried.take(lanes),
         )
 
     def take(self, lanes):
@@ -51,4 +59,6 @@ class Rays:
             self.key.take(lanes),
             self.sample.take(lanes),
             self.depth,
+            self.split,
+            self.carried.take(lanes),
         )

@@ -9,7 +9,7 @@ from glanz.engine import Lens, PanoramaCamera, SceneError, render_image
 from glanz.engine.arrays import columns
 from glanz.engine.interfaces import Camera
 from glanz.engine.registry import CAMERAS
-from glanz.engine.wavefront.clip import meet_nearest
+from glanz.engine.wavefront.visibility import meet_nearest
 from glanz.tests import helpers as h, scenes
 
 each = pytest.mark.parametrize("plugin", CAMERAS.values(), ids=lambda p: p.key)

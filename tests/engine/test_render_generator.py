@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from glanz.engine import GlanzError, Requirements, SceneError, render, render_image, rendering
-from glanz.engine.wavefront import direct, loop
+from glanz.engine.integrators.path import Path
+from glanz.engine.wavefront import direct, visibility
 from glanz.tests import helpers as h, scenes
 
 SETTINGS = h.settings(width=24, height=20, samples=4, max_depth=2, tile_size=8, threads=2)
@@ -89,7 +90,7 @@ def test_closing_stops_within_a_bounce(monkeypatch):
     started = threading.Event()
     after = []
     stop = threading.Event()
-    closest = loop.interact
+    closest = visibility.interact
 
     def slow(*args):
         started.set()
@@ -97,7 +98,7 @@ def test_closing_stops_within_a_bounce(monkeypatch):
             after.append(threading.current_thread().name)
         return closest(*args)
 
-    monkeypatch.setattr(loop, "interact", slow)
+    monkeypatch.setattr(visibility, "interact", slow)
     generator = render(scenes.everything(), h.replaced(SETTINGS, width=128, height=128, samples=64, max_depth=30, tile_size=0, threads=1))
     for _ in generator:
         if started.is_set():
@@ -126,7 +127,7 @@ def test_an_exception_in_a_worker_surfaces(monkeypatch, error, threads):
         if len(calls) == 3:
             raise error
 
-    monkeypatch.setattr("glanz.engine.plan.add_direct_light", failing)
+    monkeypatch.setattr(Path, "on_surface", (failing,))
     with pytest.raises(type(error)) as caught:
         list(render(scenes.everything(), h.replaced(SETTINGS, threads=threads)))
     assert caught.value is error
@@ -200,13 +201,13 @@ def test_two_renders_at_once_do_not_disturb_each_other():
 def test_the_consumer_is_woken_while_a_tile_takes_long(monkeypatch):
     """Between tiles there are items without any, so that cancelling can be asked for."""
     release = threading.Event()
-    closest = loop.interact
+    closest = visibility.interact
 
     def waiting(*args):
         release.wait(10)
         return closest(*args)
 
-    monkeypatch.setattr(loop, "interact", waiting)
+    monkeypatch.setattr(visibility, "interact", waiting)
     monkeypatch.setattr(rendering, "POLL_SECONDS", 0.01)
     generator = render(scenes.everything(), h.replaced(SETTINGS, tile_size=0))
     empty = [next(generator) for _ in range(5)]

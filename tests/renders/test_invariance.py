@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from glanz.engine import Mesh, PointLight, Scene, rendering
-from glanz.engine.wavefront import loop
+from glanz.engine.wavefront import visibility
 from glanz.engine.world.frame import Frame
 from glanz.tests import helpers as h, scenes
 
@@ -46,14 +46,14 @@ def test_shifting_catches_a_world_that_is_not_centred_on_the_camera(reference, m
 
 def test_scaling_catches_an_offset_that_does_not_scale(reference, monkeypatch):
     """The mutant starts rays at a fixed distance from surfaces, in metres."""
-    interact = loop.interact
+    interact = visibility.interact
 
     def fixed(triangles, shading_normals, d, hits):
         surface = interact(triangles, shading_normals, d, hits)
         return h.replaced(surface, o=surface.p + np.float32(1e-4) * scale * surface.n)
 
     scale = np.float32(1)
-    monkeypatch.setattr(loop, "interact", fixed)
+    monkeypatch.setattr(visibility, "interact", fixed)
     at_one = h.pixels(scenes.everything(), SMALL)
     scale = np.float32(2.0**-20)
     assert not h.same_bits(h.pixels(scenes.everything(scale=2.0**20), SMALL), at_one)

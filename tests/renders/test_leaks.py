@@ -7,7 +7,7 @@ import pytest
 
 from glanz.engine import PerspectiveCamera, PointLight
 from glanz.engine.maths import patches
-from glanz.engine.wavefront import direct, loop
+from glanz.engine.wavefront import direct, visibility
 from glanz.engine.world import interaction
 from glanz.engine.world.accel import Accel
 from glanz.tests import helpers as h
@@ -75,14 +75,14 @@ def test_walks_catch_rays_that_start_on_the_surface(monkeypatch):
 
 def test_walks_catch_an_offset_in_metres(monkeypatch):
     """The mutant lifts rays by 1e-5 m; in a mesh of a micrometre they all escape."""
-    interact = loop.interact
+    interact = visibility.interact
     scale = np.float32(2.0**20)  # of render space, where a micrometre is about 1
 
     def fixed(triangles, shading_normals, d, hits):
         surface = interact(triangles, shading_normals, d, hits)
         return h.replaced(surface, o=surface.p + np.float32(1e-5) * scale * surface.n)
 
-    monkeypatch.setattr(loop, "interact", fixed)
+    monkeypatch.setattr(visibility, "interact", fixed)
     lost, _ = escapes(CUBE, monkeypatch, scale=1e-6, paths=100)
     assert lost >= 90
 

@@ -1,0 +1,47 @@
+"""What rays meet in a world that stands still and lets no light through: the plain choices of a plan."""
+
+import numpy as np
+
+from ..world.interaction import interact
+
+_MOST_SHARE = 4
+
+
+def closest(plan, carried, o, d, limit=None):
+    """`Hits` of the nearest triangles along o, d (3, N), up to `limit` (N,); `carried` is what the rays carry."""
+    return plan.world.accel.closest(o, d, limit)
+
+
+def occluded(plan, carried, o, d, limit):
+    """Whether any triangle lies within `limit` (N,) along o, d (3, N): (N,) bool."""
+    return plan.world.accel.occluded(o, d, limit)
+
+
+def meet_nearest(plan, rays):
+    """`Hits` of a batch of rays."""
+    return plan.closest(plan, rays.carried, rays.o, rays.d)
+
+
+def interact_at_rest(plan, rays, hits):
+    """The `Surface` where `rays` met triangles."""
+    return interact(plan.world.triangles, plan.shading_normals, rays.d, hits)
+
+
+def unblocked(plan, rays, o, d, limit, candidate):
+    """Which shadow rays of the lanes `candidate` (N,) bool arrive: lanes (M,), and the share of light that does, 1 or (3, M).
+
+    o, d (3, N) and limit (N,) are those of the shadow rays, one for each of `rays`.
+    """
+    return np.nonzero(candidate & ~_blocked(plan, rays.carried, o, d, limit, candidate))[0], 1
+
+
+def _blocked(plan, carried, o, d, limit, candidate):
+    """`plan.occluded` where `candidate` (N,); what it says elsewhere means nothing."""
+    count = np.count_nonzero(candidate)
+    if count * _MOST_SHARE > candidate.size * (_MOST_SHARE - 1):
+        # Packing costs more than a few rays of no length.
+        return plan.occluded(plan, carried, o, d, limit * candidate)
+    lanes = np.nonzero(candidate)[0]
+    blocked = np.zeros(candidate.size, bool)
+    blocked[lanes] = plan.occluded(plan, carried.take(lanes), o.take(lanes, axis=1), d.take(lanes, axis=1), limit.take(lanes))
+    return blocked
