@@ -61,6 +61,15 @@ class SpecularBsdf(Lobe, Protocol):
     def scatter(k, n, wo, is_front, u1):
         """Directions wi (3, N), and weight = f |cos| / probability (3, N); `is_front` (N,) says on which side wo is."""
 
+    @staticmethod
+    def branches(k, n, wo, is_front):
+        """All directions that light comes from, a tuple of (wi (3, N), weight (3, N)): what `scatter` does on average.
+
+        The weight, (3, 1) where it is the same for all lanes, is 0 where there is no such direction: beyond the critical
+        angle nothing is refracted. A table `k` whose `ior` is (3, N), an index for each channel, gets a refracted
+        direction for each.
+        """
+
 
 @runtime_checkable
 class Light(Protocol):

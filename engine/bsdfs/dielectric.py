@@ -3,6 +3,11 @@
 The share F of exact Fresnel reflection is reflected, the rest refracted by Snell's law; one of the two is followed,
 with probability F. Radiance that is refracted is scaled by 1 / eta^2, since a pencil of rays widens as it leaves the
 denser medium (Veach 1997, section 5.2).
+
+Without Fresnel the shares are the lecture's constants: k_r is reflected and k_t refracted, and where light is totally
+reflected all of it is, k_r + k_t. One of the two is followed, with probability in proportion to the constants (their
+sums over the channels). Radiance is scaled all the same: a body looks as it does in the lecture, since what is lost on
+the way in is won on the way out.
 """
 
 from dataclasses import dataclass
@@ -23,6 +28,7 @@ class Dielectric:
     ior            index of refraction behind the front of the surface over that before it, > 0
     reflectance    k_r, tint of what is reflected; 1 is physical
     transmittance  k_t, tint of what passes the surface, each time; 1 is physical
+    is_fresnel     whether Fresnel's equations share the light; else k_r and k_t themselves are the shares
     """
 
     key = "dielectric"
@@ -33,26 +39,61 @@ class Dielectric:
     ior: float = 1.5
     reflectance: tuple = (1.0, 1.0, 1.0)
     transmittance: tuple = (1.0, 1.0, 1.0)
+    is_fresnel: bool = True
 
     @classmethod
     def black(cls):
         return cls(1.5, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
     def row(self):
-        return {"ior": self.ior, "reflectance": self.reflectance, "transmittance": self.transmittance}
+        return {
+            "ior": self.ior,
+            "reflectance": self.reflectance,
+            "transmittance": self.transmittance,
+            "is_fresnel": bool(self.is_fresnel),
+        }
 
     def check(self, owner):
         if not 1e-3 <= self.ior <= 1e3:
             raise SceneError(f"material '{owner}': index of refraction is {self.ior}, allowed: 0.001 to 1000")
-        if not all(0 <= c < float("inf") for c in self.transmittance):
-            raise SceneError(f"material '{owner}': transmittance is {self.transmittance}, allowed: three finite numbers from 0 on")
+        for name in ("reflectance", "transmittance"):
+            if not all(0 <= c < float("inf") for c in getattr(self, name)):
+                raise SceneError(f"material '{owner}': {name} is {getattr(self, name)}, allowed: three finite numbers from 0 on")
 
     def albedo(self):
-        return tuple(max(pair) for pair in zip(self.reflectance, self.transmittance))
+        together = max if self.is_fresnel else sum
+        return tuple(together(pair) for pair in zip(self.reflectance, self.transmittance))
 
     @staticmethod
     def scatter(k, n, wo, is_front, u1):
         eta = np.where(is_front, k.ior, 1 / k.ior)
-        is_reflected = u1 < fresnel_dielectric(dot(wo, n), eta)
+        share, k_r, k_t = fresnel_dielectric(dot(wo, n), eta), k.reflectance, k.transmittance
+        if not k.is_fresnel.all():
+            share, k_r, k_t = _with_constants(k, share)
+        is_reflected = u1 < share
         wi = np.where(is_reflected, reflect(wo, n), refract(wo, n, eta))
-        return wi, np.where(is_reflected, k.reflectance, k.transmittance / (eta * eta))
+        return wi, np.where(is_reflected, k_r, k_t / (eta * eta))
+
+    @staticmethod
+    def branches(k, n, wo, is_front):
+        eta = np.where(is_front, k.ior, 1 / k.ior)
+        share = fresnel_dielectric(dot(wo, n), eta)
+        is_fresnel, is_total = k.is_fresnel > 0, share >= 1
+        k_r = np.where(is_fresnel, share * k.reflectance, k.reflectance + is_total * k.transmittance)
+        k_t = np.where(is_fresnel, 1 - share, ~is_total) * k.transmittance / (eta * eta)
+        reflected = (reflect(wo, n), k_r)
+        if eta.ndim == 1:
+            return reflected, (refract(wo, n, eta), k_t)
+        # An index for each channel: each goes its own way.
+        return reflected, *((refract(wo, n, eta[c]), k_t * np.eye(3, dtype=k_t.dtype)[:, c, None]) for c in range(3))
+
+
+def _with_constants(k, share):
+    """Probability (N,) of reflection, k_r and k_t (3, N) over the probability of each, also where they are constants."""
+    k_r, k_t = k.reflectance, k.transmittance
+    is_fresnel, is_total = k.is_fresnel > 0, share >= 1
+    reflected, refracted = k_r.sum(axis=0), k_t.sum(axis=0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        constant = np.where(is_total, 1, reflected / (reflected + refracted))
+        k_r = np.where(is_fresnel, k_r, np.where(is_total, k_r + k_t, k_r / constant))
+        return np.where(is_fresnel, share, constant), k_r, np.where(is_fresnel, k_t, k_t / (1 - constant))

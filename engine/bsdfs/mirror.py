@@ -34,3 +34,7 @@ class Mirror:
     @staticmethod
     def scatter(k, n, wo, is_front, u1):
         return reflect(wo, n), k.reflectance
+
+    @staticmethod
+    def branches(k, n, wo, is_front):
+        return ((reflect(wo, n), k.reflectance),)

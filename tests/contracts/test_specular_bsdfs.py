@@ -10,12 +10,14 @@ from glanz.engine.interfaces import SpecularBsdf
 from glanz.engine.registry import BSDFS
 from glanz.tests import helpers as h
 
-EXAMPLES = {"dielectric": [Dielectric(ior) for ior in (1e-3, 1 / 1.5, 1.0, 1 + 1e-12, 1.5, 2.42, 1e3)]}
+CONSTANT = Dielectric(1.5, (0.3,) * 3, (0.7,) * 3, is_fresnel=False)
+TINTED = Dielectric(1.5, (0.1, 0.4, 0.0), (0.8, 0.3, 0.7), is_fresnel=False)
+EXAMPLES = {"dielectric": [*(Dielectric(ior) for ior in (1e-3, 1 / 1.5, 1.0, 1 + 1e-12, 1.5, 2.42, 1e3)), CONSTANT]}
 ALL = [value for key, plugin in BSDFS.items() if plugin.is_specular for value in EXAMPLES.get(key, [plugin()])]
 ANGLES = (0.0, 0.4, 0.8, 1.2, np.pi / 2 - 1e-3, np.pi / 2 - 1e-7)
 Z = np.array([[0.0], [0.0], [1.0]])
 
-each = pytest.mark.parametrize("value", ALL, ids=lambda v: f"{v.key}-{getattr(v, 'ior', '')}")
+each = pytest.mark.parametrize("value", ALL, ids=str)
 
 
 def scattered(value, angle, is_front, n=1_000, dtype=np.float64):
@@ -60,11 +62,74 @@ def test_a_specular_bsdf_passes_on_all_light_and_no_more(value, is_front):
         assert passed == pytest.approx(1, rel=1e-9)
 
 
+def check_branches(value, angle, is_front):
+    """The branches are distinct directions, and each weighs what `scatter` gives it on average, to 1 / n."""
+    n = 4_000
+    wo, wi, weight = scattered(value, angle, is_front, n)
+    k = h.table(value.row())
+    branches = value.branches(k, Z, wo[:, :1], np.array([is_front]))
+    found = np.zeros(n, bool)
+    for direction, share in branches:
+        mine = np.abs(wi - direction).max(axis=0) <= 1e-9
+        # Two branches along one line: only where nothing goes along the other.
+        assert not (found & mine & (share > 0).any()).any()
+        found |= mine
+        assert np.broadcast_to(share, (3, 1))[:, 0] == pytest.approx((weight * mine).sum(axis=1) / n, abs=weight.max() / n)
+    assert found.all()
+
+
+@pytest.mark.parametrize("value", [*ALL, TINTED, Dielectric(1.5, (0.2, 0.5, 0.0), (0.9, 0.5, 0.3))], ids=str)
+@pytest.mark.parametrize("is_front", [True, False])
+def test_branches_are_what_scattering_does_on_average(value, is_front):
+    for angle in ANGLES[:-1]:
+        check_branches(value, angle, is_front)
+
+
+def test_the_average_catches_branches_that_are_not_scaled(monkeypatch):
+    """The missing 1 / eta^2 of the refracted branch; and constants that forget total reflection."""
+    original = Dielectric.branches
+    for value, changed in ((Dielectric(1.5), lambda a, b: (a, (b[0], b[1] * 2.25))), (CONSTANT, lambda a, b: ((a[0], a[1] * 0.3), b))):
+        monkeypatch.setattr(Dielectric, "branches", staticmethod(lambda *args, changed=changed: changed(*original(*args))))
+        with pytest.raises(AssertionError):
+            check_branches(value, 1.2, value is not CONSTANT)
+
+
+@pytest.mark.parametrize("is_front", [True, False])
+def test_an_index_for_each_channel_gives_each_its_own_branch(is_front):
+    """Together they weigh what one index does, and each goes where its index sends it, red alone, green alone, blue alone."""
+    indices = (1.3, 1.5, 1.7)
+    wo = h.at_angle(0.5, 0.3)
+    k = h.table(Dielectric(1.5, (0.9,) * 3, (0.8,) * 3).row())
+    k.ior = np.array(indices)[:, None]
+    reflected, *refracted = Dielectric.branches(k, Z, wo, np.array([is_front]))
+    assert len(refracted) == 3
+    for c, (index, (wi, weight)) in enumerate(zip(indices, refracted)):
+        k.ior = np.array([index])
+        mirrored, passed = Dielectric.branches(k, Z, wo, np.array([is_front]))
+        assert wi == pytest.approx(passed[0], abs=1e-12)
+        assert weight[c] == pytest.approx(passed[1][c], rel=1e-12)
+        assert not np.delete(weight, c, axis=0).any()
+        assert reflected[1][c] == pytest.approx(mirrored[1][c], rel=1e-12)
+
+
+@pytest.mark.parametrize("angle", [0.5, 1.2])
+def test_constants_share_light_as_the_lecture_has_it(angle):
+    """k_r goes to the mirror direction and k_t, scaled, through; from inside beyond 0.73 rad all of both is reflected."""
+    (_, outside), (_, through) = Dielectric.branches(h.table(TINTED.row()), Z, h.at_angle(angle), np.array([True]))
+    assert outside[:, 0] == pytest.approx(TINTED.reflectance)
+    assert through[:, 0] * 2.25 == pytest.approx(TINTED.transmittance)
+    (_, inside), (_, out) = Dielectric.branches(h.table(TINTED.row()), Z, h.at_angle(angle), np.array([False]))
+    assert inside[:, 0] == pytest.approx(TINTED.reflectance if angle < 0.73 else TINTED.albedo())
+    assert out[:, 0] / 2.25 == pytest.approx(TINTED.transmittance if angle < 0.73 else (0, 0, 0))
+
+
 @each
 def test_dtype_is_kept(value):
     for dtype in (np.float32, np.float64):
-        _, wi, weight = scattered(value, 0.7, True, 16, dtype)
+        wo, wi, weight = scattered(value, 0.7, True, 16, dtype)
         assert wi.dtype == weight.dtype == dtype
+        for direction, share in value.branches(h.table(value.row(), dtype), Z.astype(dtype), wo, np.full(16, True)):
+            assert direction.dtype == share.dtype == dtype
 
 
 @each
