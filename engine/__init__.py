@@ -5,10 +5,12 @@ Build a `Scene` from arrays, ask `Requirements.of` what it needs, iterate `rende
 """
 
 from . import bsdfs, cameras, filters, integrators, lights, passes, samplers  # noqa: F401 - fills the registries
+from .bsdfs.blinn_phong import BlinnPhong
 from .bsdfs.dielectric import Dielectric
 from .bsdfs.lambert import Lambert
 from .bsdfs.mirror import Mirror
 from .bsdfs.phong import Phong
+from .bsdfs.phong_lecture import PhongLecture
 from .cameras.orthographic import OrthographicCamera
 from .cameras.panorama import PanoramaCamera
 from .cameras.perspective import PerspectiveCamera
@@ -33,6 +35,7 @@ __all__ = [
     "PASSES",
     "SAMPLERS",
     "AreaLight",
+    "BlinnPhong",
     "Dielectric",
     "FileError",
     "GlanzError",
@@ -47,6 +50,7 @@ __all__ = [
     "PanoramaCamera",
     "PerspectiveCamera",
     "Phong",
+    "PhongLecture",
     "PointLight",
     "Progress",
     "Requirements",

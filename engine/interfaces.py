@@ -38,7 +38,11 @@ class Bsdf(Lobe, Protocol):
     """A reflection lobe about the shading normal `n` (3, N); `wo`, `wi` (3, N) are unit and leave the surface.
 
     What is asked for is reflection: `eval` says nothing of wi below the horizon of `n`, where callers take f as 0.
+
+    is_reciprocal  f is the same with wo and wi exchanged
     """
+
+    is_reciprocal: bool
 
     @staticmethod
     def eval(k, n, wo, wi):

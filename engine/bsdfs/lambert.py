@@ -20,6 +20,7 @@ class Lambert:
     label = "Lambert"
     is_specular = False
     transmits = False
+    is_reciprocal = True
 
     reflectance: tuple = (0.8, 0.8, 0.8)
 

@@ -11,15 +11,9 @@ below the surface carry nothing and still count.
 
 from dataclasses import dataclass
 
-from ..constants import INV_PI
-from ..errors import SceneError
-from ..maths.frames import to_world
-from ..maths.vectors import cosine_power, reflect
-from ..maths.warps import square_to_cosine_power
+from ..maths.lobes import check_exponent, phong_lobe, sample_lobe, sample_lobe_pdf
+from ..maths.vectors import reflect
 from . import registry
-
-LARGEST_EXPONENT = 1e6
-"""A lobe 0.1 degrees wide; float32 directions cannot carry a sharper one."""
 
 
 @registry.add
@@ -31,6 +25,7 @@ class Phong:
     label = "Phong"
     is_specular = False
     transmits = False
+    is_reciprocal = True
 
     reflectance: tuple = (0.8, 0.8, 0.8)
     exponent: float = 32.0
@@ -46,18 +41,16 @@ class Phong:
         return self.reflectance
 
     def check(self, owner):
-        if not 0 <= self.exponent <= LARGEST_EXPONENT:
-            raise SceneError(f"material '{owner}': Phong exponent is {self.exponent}, allowed: 0 to {LARGEST_EXPONENT:g}")
+        check_exponent(owner, self.exponent)
 
     @staticmethod
     def eval(k, n, wo, wi):
-        lobe = (k.exponent + 2) * (0.5 * INV_PI) * cosine_power(reflect(wo, n), wi, k.exponent)
-        return k.reflectance * lobe
+        return k.reflectance * phong_lobe(reflect(wo, n), wi, k.exponent)
 
     @staticmethod
     def sample(k, n, wo, u2):
-        return to_world(reflect(wo, n), square_to_cosine_power(u2, k.exponent))
+        return sample_lobe(reflect(wo, n), u2, k.exponent)
 
     @staticmethod
     def pdf(k, n, wo, wi):
-        return (k.exponent + 1) * (0.5 * INV_PI) * cosine_power(reflect(wo, n), wi, k.exponent)
+        return sample_lobe_pdf(reflect(wo, n), wi, k.exponent)

@@ -65,11 +65,12 @@ def _check_material(material):
     for lobe in material.lobes:
         if type(lobe) not in BSDFS.values():
             raise SceneError(f"material '{material.name}': {type(lobe).__name__} is not a BSDF")
+        # First what albedo() computes with, then what it returns.
+        lobe.check(material.name)
         if not _is_colour(lobe.albedo()):
             raise SceneError(
                 f"material '{material.name}': {lobe.key} reflectance is {lobe.albedo()}, allowed: three finite numbers from 0 on"
             )
-        lobe.check(material.name)
         total += lobe.albedo()
     if (total > 1 + 1e-6).any():
         raise SceneError(

@@ -34,3 +34,12 @@ def test_the_value_does_not_depend_on_directions():
     k = h.table(Lambert((0.8, 0.5, 0.1)).row())
     f = Lambert.eval(k, Z, h.at_angle(0.3), h.at_angle(1.2))
     assert f.ravel() == pytest.approx(np.array((0.8, 0.5, 0.1)) / np.pi, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    "law", [test_the_reflected_share_is_the_reflectance, test_every_sample_weighs_the_reflectance], ids=lambda x: x.__name__
+)
+def test_the_closed_forms_catch_a_missing_pi(monkeypatch, law):
+    monkeypatch.setattr(Lambert, "eval", staticmethod(lambda k, n, wo, wi: k.reflectance * np.ones_like(dot(n, wi))))
+    with pytest.raises(AssertionError):
+        law()

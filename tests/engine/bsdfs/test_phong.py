@@ -7,10 +7,11 @@ import pytest
 from scipy import special
 
 from glanz.engine import Lambert, Phong
-from glanz.engine.maths.vectors import dot
+from glanz.engine.maths.lobes import phong_lobe
+from glanz.engine.maths.vectors import dot, reflect
 from glanz.engine.registry import BSDFS
 from glanz.engine.scene.values import Material
-from glanz.engine.world.materials import Materials
+from glanz.engine.world.materials import Materials, Reflection
 from glanz.tests import helpers as h
 
 Z = h.unit(0, 0, 1)
@@ -24,7 +25,7 @@ def albedo(angle, n):
     k = h.table(Phong((1.0, 1.0, 1.0), n).row())
     mirror, up, side = np.array([[-np.sin(angle), 0, np.cos(angle)], [np.cos(angle), 0, np.sin(angle)], [0, 1, 0]])[:, :, None]
     x, weight = np.polynomial.legendre.leggauss(64)
-    edges = np.unique(np.concatenate(([0.0, 1.0], 2.0 ** -np.arange(1.0, 44), 1 - 2.0 ** -np.arange(1.0, 20))))
+    edges = np.unique(np.concatenate(([0.0, 1.0, 2.0], 2.0 ** -np.arange(1.0, 44), 1 - 2.0 ** -np.arange(1.0, 20))))
     half = np.diff(edges)[:, None] / 2
     q = (edges[:-1, None] + half + half * x).ravel()
     sin = np.sqrt(q * (2 - q))
@@ -92,6 +93,36 @@ def test_the_limit_is_the_mirror_times_the_cosine(n):
         assert albedo(np.radians(degrees), n) == pytest.approx(np.cos(np.radians(degrees)), rel=5e-3)
 
 
+def _divided_by_the_cosine(k, n, wo, wi):
+    return k.reflectance * phong_lobe(reflect(wo, n), wi, k.exponent) / np.maximum(dot(n, wi), 1e-6)
+
+
+def _normalised_for_the_lobe_alone(k, n, wo, wi):
+    return k.reflectance * phong_lobe(reflect(wo, n), wi, k.exponent) * (k.exponent + 1) / (k.exponent + 2)
+
+
+def _lambert(k, n, wo, wi):
+    return k.reflectance / np.pi * np.ones_like(dot(n, wi))
+
+
+@pytest.mark.parametrize(
+    ("law", "case", "mutant"),
+    [
+        (test_the_reflected_share_is_that_of_the_closed_form, 10.0, _divided_by_the_cosine),
+        (test_the_reflected_share_is_that_of_the_closed_form, 10.0, _normalised_for_the_lobe_alone),
+        (test_the_reflected_share_at_grazing, 1.0, _normalised_for_the_lobe_alone),
+        (test_exponent_zero_is_cut_off_at_a_right_angle_from_the_mirror, None, _lambert),
+        (test_the_limit_is_the_mirror_times_the_cosine, 1e4, _divided_by_the_cosine),
+        (test_the_weight_of_a_sample_has_a_closed_form_and_a_bound, 10.0, _divided_by_the_cosine),
+    ],
+    ids=lambda x: x.__name__ if callable(x) else None,
+)
+def test_the_closed_forms_catch_another_lobe(monkeypatch, law, case, mutant):
+    monkeypatch.setattr(Phong, "eval", staticmethod(mutant))
+    with pytest.raises(AssertionError):
+        law(*(() if case is None else (case,)))
+
+
 # A material of several lobes (C10)
 
 
@@ -112,6 +143,13 @@ def test_a_mixture_weighs_and_samples_its_lobes_by_their_shares(kd, ks):
     assert np.isfinite(weight).all()
     assert (weight[:, wi[2] <= 0] == 0).all()
     assert h.mean_is(weight[0], kd + ks * ALBEDO[10.0][1], floor=1e-5)
+
+
+def test_the_mixture_catches_lobes_that_are_chosen_evenly(monkeypatch):
+    """The mutant draws each lobe as often as the other, and weighs as if by their shares."""
+    monkeypatch.setattr(Reflection, "_chosen", lambda self, i, u1, u2: np.nonzero((u1 * 2).astype(int) == i)[0])
+    with pytest.raises(AssertionError):
+        test_a_mixture_weighs_and_samples_its_lobes_by_their_shares(0.1, 0.8)
 
 
 def test_two_lobes_of_one_kind_add_up():

@@ -1,0 +1,31 @@
+"""Lobes that are a power of a cosine about an axis: what the Phong family of BSDFs shares."""
+
+from ..constants import INV_PI
+from ..errors import SceneError
+from .frames import to_world
+from .vectors import cosine_power
+from .warps import square_to_cosine_power
+
+LARGEST_EXPONENT = 1e6
+"""A lobe 0.1 degrees wide; float32 directions cannot carry a sharper one."""
+
+
+def check_exponent(owner, exponent):
+    """Raises SceneError, naming the material `owner`, for an exponent that no lobe has."""
+    if not 0 <= exponent <= LARGEST_EXPONENT:
+        raise SceneError(f"material '{owner}': Phong exponent is {exponent}, allowed: 0 to {LARGEST_EXPONENT:g}")
+
+
+def phong_lobe(axis, w, exponent):
+    """(n + 2) / (2 pi) cos^n of the angle between unit axis and w (3, N): times a cosine its integral is at most 1."""
+    return (exponent + 2) * (0.5 * INV_PI) * cosine_power(axis, w, exponent)
+
+
+def sample_lobe(axis, u2, exponent):
+    """Directions (3, N) about the unit axis (3, N), distributed as `sample_lobe_pdf`."""
+    return to_world(axis, square_to_cosine_power(u2, exponent))
+
+
+def sample_lobe_pdf(axis, w, exponent):
+    """(n + 1) / (2 pi) cos^n [sr^-1] of the angle between unit axis and w (3, N), (N,)."""
+    return (exponent + 1) * (0.5 * INV_PI) * cosine_power(axis, w, exponent)
