@@ -158,10 +158,15 @@ class GLANZ_LIGHT_PT_light(GlanzPanel, bpy.types.Panel):
             if hasattr(light, name) and not (name == "temperature" and not light.use_temperature):
                 column.prop(light, name)
         column.separator()
+        is_cosine = light.type == "SPOT" and light.glanz.characteristic == "COSINE"
         for name in _SHAPE_OF_LIGHT[light.type]:
-            if name == "size_y" and light.shape in ("SQUARE", "DISK"):
+            if (name == "size_y" and light.shape in ("SQUARE", "DISK")) or (name in ("spot_size", "spot_blend") and is_cosine):
                 continue
             column.prop(light, name)
+        if light.type == "SPOT":
+            column.prop(light.glanz, "characteristic")
+            if is_cosine:
+                column.prop(light.glanz, "exponent")
         if context.object and context.object.data == light:
             column.separator()
             column.prop(context.object, "visible_camera", text="Visible to Camera")

@@ -19,6 +19,7 @@ from .errors import FileError, GlanzError, SceneError
 from .io.exr import write_exr
 from .io.scene_file import read_scene, write_scene
 from .lights.area import AreaLight
+from .lights.cosine_spot import CosineSpotLight
 from .lights.point import PointLight
 from .lights.spot import SpotLight
 from .lights.sun import SunLight
@@ -36,6 +37,7 @@ __all__ = [
     "SAMPLERS",
     "AreaLight",
     "BlinnPhong",
+    "CosineSpotLight",
     "Dielectric",
     "FileError",
     "GlanzError",

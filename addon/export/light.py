@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from ...engine import AreaLight, PointLight, SpotLight, SunLight
+from ...engine import AreaLight, CosineSpotLight, PointLight, SpotLight, SunLight
 from .nodes import has_nodes, output_node
 from .shaders import surface_of
 
@@ -75,15 +75,15 @@ def _point(light, matrix, S, common, name, findings):
 
 
 def _spot(light, matrix, S, common, name, findings):
-    return SpotLight(
-        world_from_light=matrix,
-        intensity=_bulb_intensity(light, S),
-        angle=min(light.spot_size, math.pi),
-        blend=light.spot_blend,
-        radius=light.shadow_soft_size,
-        soft_falloff=light.use_soft_falloff,
-        **common,
-    )
+    bulb = {
+        "world_from_light": matrix,
+        "intensity": _bulb_intensity(light, S),
+        "radius": light.shadow_soft_size,
+        "soft_falloff": light.use_soft_falloff,
+    }
+    if light.glanz.characteristic == "COSINE":
+        return CosineSpotLight(exponent=light.glanz.exponent, **bulb, **common)
+    return SpotLight(angle=min(light.spot_size, math.pi), blend=light.spot_blend, **bulb, **common)
 
 
 def _sun(light, matrix, S, common, name, findings):

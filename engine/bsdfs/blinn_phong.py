@@ -50,7 +50,7 @@ class BlinnPhong:
         return self.reflectance
 
     def check(self, owner):
-        check_exponent(owner, self.exponent)
+        check_exponent(f"material '{owner}': Phong exponent", self.exponent)
 
     @staticmethod
     def eval(k, n, wo, wi):

@@ -41,7 +41,7 @@ class Phong:
         return self.reflectance
 
     def check(self, owner):
-        check_exponent(owner, self.exponent)
+        check_exponent(f"material '{owner}': Phong exponent", self.exponent)
 
     @staticmethod
     def eval(k, n, wo, wi):

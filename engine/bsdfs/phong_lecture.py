@@ -49,7 +49,7 @@ class PhongLecture:
         return tuple(c * (self.exponent + 2) / (self.exponent + 1) for c in self.reflectance)
 
     def check(self, owner):
-        check_exponent(owner, self.exponent)
+        check_exponent(f"material '{owner}': Phong exponent", self.exponent)
 
     @staticmethod
     def eval(k, n, wo, wi):

@@ -1,4 +1,4 @@
-"""Lobes that are a power of a cosine about an axis: what the Phong family of BSDFs shares."""
+"""Lobes that are a power of a cosine about an axis: what the BSDFs of the Phong family share, and lights."""
 
 from ..constants import INV_PI
 from ..errors import SceneError
@@ -10,10 +10,10 @@ LARGEST_EXPONENT = 1e6
 """A lobe 0.1 degrees wide; float32 directions cannot carry a sharper one."""
 
 
-def check_exponent(owner, exponent):
-    """Raises SceneError, naming the material `owner`, for an exponent that no lobe has."""
+def check_exponent(subject, exponent):
+    """Raises SceneError, saying that `subject` is wrong, for an exponent that no lobe has."""
     if not 0 <= exponent <= LARGEST_EXPONENT:
-        raise SceneError(f"material '{owner}': Phong exponent is {exponent}, allowed: 0 to {LARGEST_EXPONENT:g}")
+        raise SceneError(f"{subject} is {exponent}, allowed: 0 to {LARGEST_EXPONENT:g}")
 
 
 def phong_lobe(axis, w, exponent):

@@ -86,10 +86,11 @@ def _check_light(light, warnings):
     if not all(np.isfinite(np.asarray(value, np.float64)).all() for value in numbers):
         warnings.append(f"light '{light.name}' is left out: one of its values is not finite")
         return False
+    # First what power() computes with.
+    light.check()
     if min(light.power()) < 0:
         warnings.append(f"light '{light.name}' is left out: it would take light away")
         return False
-    light.check()
     return True
 
 

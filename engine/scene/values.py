@@ -118,7 +118,7 @@ class Scene:
 
     camera   a camera value (`PerspectiveCamera`, `OrthographicCamera`, `PanoramaCamera`)
     objects  `Object` values
-    lights   light values (`PointLight`, `SpotLight`, `SunLight`, `AreaLight`)
+    lights   light values (`PointLight`, `SpotLight`, `CosineSpotLight`, `SunLight`, `AreaLight`)
     """
 
     camera: object

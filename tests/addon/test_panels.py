@@ -80,7 +80,7 @@ def test_passes_are_drawn():
     ("kind", "names"),
     [
         ("POINT", {"shadow_soft_size", "use_soft_falloff"}),
-        ("SPOT", {"shadow_soft_size", "spot_size", "spot_blend"}),
+        ("SPOT", {"shadow_soft_size", "spot_size", "spot_blend", "characteristic"}),
         ("SUN", {"angle"}),
         ("AREA", {"shape", "size", "spread"}),
     ],
@@ -93,6 +93,15 @@ def test_lights_can_be_edited(kind, names):
     if kind == "AREA":
         ob.data.shape = "ELLIPSE"
         assert "size_y" in _drawn("GLANZ_LIGHT_PT_light", ob)
+
+
+def test_a_spot_shows_the_cone_or_the_exponent():
+    ob = blender.link("Light", bpy.data.lights.new("Light", "SPOT"))
+    assert "exponent" not in _drawn("GLANZ_LIGHT_PT_light", ob)
+    ob.data.glanz.characteristic = "COSINE"
+    drawn = _drawn("GLANZ_LIGHT_PT_light", ob)
+    assert {"exponent", "shadow_soft_size"} <= set(drawn)
+    assert not {"spot_size", "spot_blend"} & set(drawn)
 
 
 @pytest.mark.parametrize("name", OWN)

@@ -8,7 +8,7 @@ import math
 import numpy as np
 import pytest
 
-from glanz.engine import AreaLight, PointLight, SpotLight, SunLight
+from glanz.engine import AreaLight, CosineSpotLight, PointLight, SpotLight, SunLight
 from glanz.engine.interfaces import Light
 from glanz.engine.maths import bulbs
 from glanz.engine.maths.vectors import dot
@@ -32,6 +32,12 @@ EXAMPLES = {
         SpotLight(world_from_light=DOWN, intensity=COLOUR, angle=1.0, blend=0.5, radius=0.3),
         SpotLight(world_from_light=DOWN, intensity=COLOUR, angle=1.0, blend=0.0, radius=0.3, soft_falloff=False),
     ],
+    "cosine_spot": [
+        CosineSpotLight(world_from_light=DOWN, intensity=COLOUR, exponent=0.0, radius=0.3),
+        CosineSpotLight(world_from_light=DOWN, intensity=COLOUR, exponent=0.5),
+        CosineSpotLight(world_from_light=DOWN, intensity=COLOUR, exponent=1e3),
+        CosineSpotLight(world_from_light=DOWN, intensity=COLOUR, exponent=1e3, radius=0.3, soft_falloff=False),
+    ],
     "sun": [SunLight(towards=(0.0, 0.6, 0.8), irradiance=COLOUR, angle=a) for a in (0.0, 1e-4, 0.0093, 1.0, math.pi)],
     "area": [
         AreaLight(world_from_light=DOWN, size_x=2.0, size_y=0.5, radiance=COLOUR),
@@ -48,7 +54,7 @@ N = 40_000
 
 
 def name(value):
-    size = [getattr(value, f, None) for f in ("radius", "angle", "size_x", "spread", "soft_falloff", "is_ellipse")]
+    size = [getattr(value, f, None) for f in ("radius", "angle", "exponent", "size_x", "spread", "soft_falloff", "is_ellipse")]
     return "-".join([value.key, *(f"{s:.3g}" if isinstance(s, float) else str(s)[0] for s in size if s is not None)])
 
 

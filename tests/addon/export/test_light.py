@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 import pytest
 
+from glanz.engine import CosineSpotLight
 from glanz.tests.addon import blender
 
 PI = math.pi
@@ -59,6 +60,32 @@ def test_a_spots_frame_is_scaled():
 def test_the_widest_spot_is_a_half_space():
     _light("SPOT", spot_size=PI)
     assert _exported().angle == pytest.approx(PI)
+
+
+def test_a_spot_takes_the_lectures_characteristic_where_asked():
+    """As bright on the axis as Blender's cone, I_0 = P / (4 pi); the cone's own settings do not count."""
+    _, light = _light("SPOT", spot_size=0.3, shadow_soft_size=0.2, color=(1, 0.5, 0.25))
+    light.glanz.characteristic, light.glanz.exponent = "COSINE", 20
+    light = _exported()
+    assert type(light) is CosineSpotLight
+    assert light.intensity == pytest.approx((100 / (4 * PI), 50 / (4 * PI), 25 / (4 * PI)))
+    assert (light.exponent, light.radius) == pytest.approx((20, 0.2))
+    assert light.power()[0] == pytest.approx(100 / 2 / 21)
+
+
+def test_the_lectures_spot_shows_its_characteristic_in_a_saved_file(tmp_path):
+    """E = I_0 cos^n cos / d^2 on a white floor below: pixels at 0 and 45 degrees, to 1 %."""
+    blender.add_camera(location=(0, 0, 10), width=33, height=33, type="ORTHO", ortho_scale=6.6)
+    blender.add_plane(size=20).data.materials.append(blender.new_material("White", "ShaderNodeBsdfDiffuse", Color=(1, 1, 1, 1)))
+    ob, light = _light("SPOT", energy=4 * PI * 100, shadow_soft_size=0)
+    ob.location.z = 2
+    light.glanz.characteristic, light.glanz.exponent = "COSINE", 4
+    scene = bpy.context.scene
+    scene.render.engine, scene.glanz.max_depth, scene.glanz.samples, scene.glanz.pixel_filter = "GLANZ", 0, 64, "box"
+    image = next(iter(blender.read_exr(blender.render(tmp_path / "a.exr")).values()))[..., 0]
+    on_axis = 100 / 4 / PI
+    assert image[16, 16] == pytest.approx(on_axis, rel=0.01)
+    assert image[16, 26] == pytest.approx(on_axis / 2 * 0.5**2 * math.sqrt(0.5), rel=0.01)
 
 
 def test_suns_have_irradiance_and_shine_along_minus_z():
