@@ -79,7 +79,20 @@ class GLANZ_RENDER_PT_light_paths(GlanzPanel, bpy.types.Panel):
     bl_label = "Light Paths"
 
     def draw(self, context):
-        self.column().prop(context.scene.glanz, "max_depth")
+        settings = context.scene.glanz
+        column = self.column()
+        column.prop(settings, "max_depth")
+        for name, integrators in _OF_INTEGRATORS.items():
+            if settings.integrator in integrators:
+                column.prop(settings, name)
+
+
+_OF_INTEGRATORS = {
+    "branches": ("distributed",),
+    "min_contribution": ("whitted", "whitted_phong", "distributed"),
+    "light_falloff": ("whitted_phong",),
+}
+"""Settings that only some integrators know."""
 
 
 class GLANZ_RENDER_PT_film(GlanzPanel, bpy.types.Panel):

@@ -4,7 +4,7 @@ import zlib
 from functools import cache
 
 import bpy
-from bpy.props import EnumProperty, FloatProperty, IntProperty, PointerProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
 
 from . import backend
 
@@ -55,6 +55,36 @@ class GlanzSceneSettings(bpy.types.PropertyGroup):
         min=0,
         soft_max=64,
         max=2**16,
+    )
+    branches: IntProperty(
+        name="Branches",
+        description=(
+            "Distributed ray tracing: rays that every ray splits into at the first hit, a quarter of them at each further one. "
+            "Noise halves with four times as many; time grows in proportion"
+        ),
+        default=16,
+        min=1,
+        soft_max=256,
+        max=2**12,
+    )
+    min_contribution: FloatProperty(
+        name="Min Contribution",
+        description=(
+            "Whitted's and distributed ray tracing: what a ray must count at least in its pixel to be followed, from 0 to 1. "
+            "0 follows all up to the greatest depth; 0.01 is faster and loses at most a hundredth of the light at each mirror or glass"
+        ),
+        default=0.0,
+        min=0.0,
+        max=1.0,
+        precision=4,
+    )
+    light_falloff: BoolProperty(
+        name="Light Falloff",
+        description=(
+            "Phong illumination: light falls off with the square of the distance, as in nature. "
+            "Off: every light is as bright everywhere as it is at a distance of one metre"
+        ),
+        default=True,
     )
     seed: IntProperty(
         name="Seed",

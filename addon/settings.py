@@ -8,7 +8,19 @@ from ..engine import SceneError, Settings
 from . import passes
 
 FIELDS = tuple(field.name for field in dataclasses.fields(Settings))
-_OWN = ("integrator", "samples", "max_depth", "seed", "sampler", "pixel_filter", "filter_width", "tile_size")
+_OWN = (
+    "integrator",
+    "samples",
+    "max_depth",
+    "branches",
+    "min_contribution",
+    "light_falloff",
+    "seed",
+    "sampler",
+    "pixel_filter",
+    "filter_width",
+    "tile_size",
+)
 """Read from `scene.glanz`; the names are the same on both sides."""
 
 

@@ -38,10 +38,12 @@ def _add_render(commands):
     _add_frame(frames)
     frames.add_argument("--frames", type=frame_range, metavar="A-B[:STEP]", help="frames A to B, in steps of STEP")
     for name, kind, text in (
-        ("integrator", str, "how light is followed: path"),
+        ("integrator", str, "how light is followed: path, distributed, whitted, whitted_phong, path_blind, path_naive"),
         ("sampler", str, "random numbers: stratified, sobol, blue_noise, multijitter, random, grid"),
         ("samples", int, "paths per pixel"),
         ("max-depth", int, "bounces; 0 is direct light only"),
+        ("branches", int, "rays that distributed ray tracing splits into at the first hit"),
+        ("min-contribution", float, "what a ray must count at least to be followed in whitted and distributed, 0 to 1"),
         ("seed", int, "another number, other noise"),
         ("threads", int, "worker threads; 0: one per processor"),
         ("pixel-filter", str, "pixel filter: blackman_harris, gaussian, tent, mitchell, box"),

@@ -49,6 +49,10 @@ class Bsdf(Lobe, Protocol):
         """BSDF value f [sr^-1], (3, N), or (3, 1) where it is the same for all lanes."""
 
     @staticmethod
+    def illuminate(k, n, wo, wi):
+        """The lobe's term of the lecture's illumination model, k_d (n . l) or k_s (r_l . v)^n, (3, N); not physical."""
+
+    @staticmethod
     def sample(k, n, wo, u2):
         """Directions wi (3, N), unit, distributed as `pdf`; they may fall below the horizon, where f is 0."""
 
@@ -80,6 +84,8 @@ class Light(Protocol):
     """A light object that is no mesh; it gives light and casts no shadow.
 
     `is_visible` (bool) is a field of every light value: camera rays see it. Scattered rays always do.
+    A light that can be thought of as a point also has middle(k): the numbers u2, (2, M) or (2, 1), with which `sample`
+    finds its middle.
     """
 
     key: str
@@ -212,13 +218,17 @@ class Pass(Protocol):
 class Integrator(Protocol):
     """What an integrator puts onto the stack of the loop; everything else is the same loop for all of them.
 
+    is_complete     it finds all light, so its pictures are those of path tracing but for the noise
     samples_lights  shadow rays look for lights; else only scattered rays find them
+    tints_glass     shadow rays pass specular surfaces that transmit, weakened by their transmittance
     on_surface      the stages (plan, rays, surface, reflection, film) that do it
     """
 
     key: str
     label: str
+    is_complete: bool
     samples_lights: bool
+    tints_glass: bool
     on_surface: tuple
 
     @staticmethod

@@ -111,6 +111,6 @@ class Plan:
             shading_normals=smooth_normals if smooth else flat_normals,
             choose_lobe=one_of_the_lobes if len(world.materials.lobes) > 1 else only_lobe,
             leave=leave_on_either_side if any(lobe.bsdf.transmits for lobe in world.materials.lobes) else leave_in_front,
-            # Scattered rays that could find no light need not be traced after the last bounce.
-            last_depth=settings.max_depth + bool(on_rays) if can_reflect else 0,
+            # After the last bounce scattered rays share the search for direct light with shadow rays, where they can find any.
+            last_depth=settings.max_depth + bool(on_rays and integrator.is_complete) if can_reflect else 0,
         )

@@ -42,6 +42,10 @@ class Lambert:
         return k.reflectance * INV_PI
 
     @staticmethod
+    def illuminate(k, n, wo, wi):
+        return k.reflectance * np.maximum(dot(n, wi), 0)
+
+    @staticmethod
     def sample(k, n, wo, u2):
         return to_world(n, square_to_cosine_hemisphere(u2))
 

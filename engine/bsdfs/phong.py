@@ -48,6 +48,10 @@ class Phong:
         return k.reflectance * phong_lobe(reflect(wo, n), wi, k.exponent)
 
     @staticmethod
+    def illuminate(k, n, wo, wi):
+        return k.reflectance * cosine_power(reflect(wo, n), wi, k.exponent)
+
+    @staticmethod
     def sample(k, n, wo, u2):
         return sample_lobe(reflect(wo, n), u2, k.exponent)
 

@@ -12,7 +12,9 @@ class Path:
 
     key = "path"
     label = "Path Tracing"
+    is_complete = True
     samples_lights = True
+    tints_glass = False
     on_surface = (add_direct_light,)
 
     @staticmethod

@@ -13,7 +13,9 @@ class BlindPath:
 
     key = "path_blind"
     label = "Path Tracing without Light Sampling"
+    is_complete = True
     samples_lights = False
+    tints_glass = False
     on_surface = ()
 
     @staticmethod

@@ -16,7 +16,9 @@ class NaivePath:
 
     key = "path_naive"
     label = "Naive Path Tracing"
+    is_complete = True
     samples_lights = False
+    tints_glass = False
     on_surface = ()
 
     @staticmethod

@@ -8,7 +8,7 @@ import numpy as np
 from ..constants import PI
 from ..errors import SceneError
 from ..maths.vectors import dot
-from ..maths.warps import square_to_disk
+from ..maths.warps import CENTRE, square_to_disk
 from . import registry
 
 
@@ -106,6 +106,10 @@ class AreaLight:
         with np.errstate(divide="ignore"):
             pdf = 1 / geometry
         return wi, distance, _radiance(k, cos) * geometry, pdf
+
+    @staticmethod
+    def middle(k):
+        return np.where(k.ellipse > 0, CENTRE, np.float32(0.5))
 
     @staticmethod
     def hit(k, o, d):

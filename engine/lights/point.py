@@ -49,5 +49,9 @@ class PointLight:
         return bulbs.sample(k, p, u2)
 
     @staticmethod
+    def middle(k):
+        return bulbs.MIDDLE
+
+    @staticmethod
     def hit(k, o, d):
         return bulbs.hit(k, o, d)

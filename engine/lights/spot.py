@@ -82,6 +82,10 @@ class SpotLight:
         return wi, distance, E * falloff(k, wi), pdf
 
     @staticmethod
+    def middle(k):
+        return bulbs.MIDDLE
+
+    @staticmethod
     def hit(k, o, d):
         t, L, pdf = bulbs.hit(k, o, d)
         return t, L * falloff(k, d), pdf

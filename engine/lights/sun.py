@@ -9,7 +9,7 @@ from ..constants import PI
 from ..errors import SceneError
 from ..maths.frames import to_world
 from ..maths.vectors import dot
-from ..maths.warps import square_to_cone, square_to_cone_pdf
+from ..maths.warps import CENTRE, square_to_cone, square_to_cone_pdf
 from . import registry
 
 
@@ -66,6 +66,10 @@ class SunLight:
         wi = to_world(k.towards, square_to_cone(u2, k.one_minus_cos))
         everywhere = np.ones_like(p[0])
         return wi, everywhere * np.inf, k.irradiance * everywhere, square_to_cone_pdf(k.one_minus_cos) * everywhere
+
+    @staticmethod
+    def middle(k):
+        return CENTRE
 
     @staticmethod
     def hit(k, o, d):

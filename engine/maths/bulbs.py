@@ -12,7 +12,10 @@ from ..constants import PI
 from ..errors import SceneError
 from .frames import to_world
 from .vectors import dot, length, normalize
-from .warps import square_to_cone, square_to_cone_pdf, square_to_disk
+from .warps import CENTRE, square_to_cone, square_to_cone_pdf, square_to_disk
+
+MIDDLE = CENTRE
+"""Numbers with which `sample` returns the direction to the middle."""
 
 
 def row(frame, light):

@@ -10,6 +10,9 @@ from ..constants import INV_PI
 
 _TWO_PI = 2 * np.pi
 
+CENTRE = np.zeros((2, 1), np.float32)
+"""What disks, hemispheres and cones map to their centre."""
+
 
 def square_to_disk(u2):
     """Uniform on the unit disk, (2, N): r = sqrt(u), phi = 2 pi v."""

@@ -15,6 +15,9 @@ class Settings:
     integrator     name of an integrator
     samples        paths per pixel
     max_depth      bounces: 0 is direct light only (Cycles' `max_bounces`, the lecture's recursion depth)
+    branches       rays that distributed ray tracing splits into at the first hit; a quarter of them at each further one
+    min_contribution  what a ray must count at least to be followed in Whitted's and distributed ray tracing, in [0, 1]: epsilon_r
+    light_falloff  whether the illumination model of 'whitted_phong' lets light fall off with distance
     seed           any integer; equal seeds give equal noise
     sampler        name of a sampler
     pixel_filter   name of a pixel filter
@@ -30,6 +33,9 @@ class Settings:
     integrator: str = "path"
     samples: int = 64
     max_depth: int = 8
+    branches: int = 16
+    min_contribution: float = 0.0
+    light_falloff: bool = True
     seed: int = 0
     sampler: str = "stratified"
     pixel_filter: str = "blackman_harris"
@@ -44,6 +50,7 @@ class Settings:
             ("height", 1, 65536),
             ("samples", 1, 2**24),
             ("max_depth", 0, 2**16),
+            ("branches", 1, 2**12),
             ("tile_size", 0, 65536),
             ("threads", 0, 1024),
         ):
@@ -52,6 +59,10 @@ class Settings:
                 raise SceneError(f"setting {name} is {value!r}, allowed: whole numbers from {lowest} to {highest}")
         if isinstance(self.seed, bool) or not isinstance(self.seed, int):
             raise SceneError(f"setting seed is {self.seed!r}, allowed: whole numbers")
+        if not isinstance(self.light_falloff, bool):
+            raise SceneError(f"setting light_falloff is {self.light_falloff!r}, allowed: True or False")
+        if not (isinstance(self.min_contribution, (int, float)) and 0.0 <= self.min_contribution <= 1.0):
+            raise SceneError(f"setting min_contribution is {self.min_contribution!r}, allowed: 0 to 1")
         if not (isinstance(self.filter_width, (int, float)) and math.isfinite(self.filter_width) and 0.0 < self.filter_width <= 10.0):
             raise SceneError(f"setting filter_width is {self.filter_width!r} px, allowed: above 0 up to 10")
         object.__setattr__(self, "passes", tuple(self.passes))

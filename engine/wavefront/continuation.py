@@ -22,7 +22,8 @@ def go_on(plan, rays, surface, wi, weight, pdf):
 def leaving(plan, rays, surface, wi, beta, pdf):
     """The rays that leave `surface` along wi (3, N) with throughput beta (3, N), and carry on what `rays` carried."""
     carried = Columns(**vars(rays.carried))
-    scattered = Rays(plan.leave(surface, wi), wi, beta, pdf, rays.slot, rays.key, rays.sample, rays.depth + 1, rays.split, carried)
+    origins = plan.leave(surface, wi)
+    scattered = Rays(origins, wi, beta, pdf, rays.slot, rays.key, rays.sample, rays.depth + 1, rays.split, rays.stream, carried)
     for stage in plan.on_leaving:
         stage(plan, rays, surface, scattered)
     return scattered
@@ -34,6 +35,8 @@ def survive(plan, rays, beta):
     Russian roulette (Arvo and Kirk 1990): a path that survives counts 1 / q, so the mean stays what it was.
     """
     brightest = np.maximum(np.maximum(beta[0], beta[1]), beta[2])
+    # Siblings share what one ray would have carried.
+    brightest *= np.float32(rays.split)
     alive = brightest > 0
     if rays.depth < ROULETTE_DEPTH:
         return alive, np.ones_like(brightest)

@@ -41,15 +41,20 @@ class Numbers:
 
     def one(self, rays, dimension):
         """u1 (N,) for each ray at its depth."""
-        return self.sampler.one(rays.key, rays.sample, dimension + _PER_BOUNCE * rays.depth, self.samples * rays.split)
+        return self.sampler.one(rays.key, rays.sample, _place(rays, dimension), self.samples * rays.split)
 
     def independent(self, rays, dimension):
         """u1 (N,) without strata, for decisions that they cannot improve; the same for every sampler."""
-        return Random.one(rays.key, rays.sample, dimension + _PER_BOUNCE * rays.depth, self.samples * rays.split)
+        return Random.one(rays.key, rays.sample, _place(rays, dimension), self.samples * rays.split)
 
     def two(self, rays, dimension):
         """u2 (2, N) for each ray at its depth."""
-        return self.sampler.two(rays.key, rays.sample, dimension + _PER_BOUNCE * rays.depth, self.samples * rays.split)
+        return self.sampler.two(rays.key, rays.sample, _place(rays, dimension), self.samples * rays.split)
+
+
+def _place(rays, dimension):
+    """A dimension of the path as one number: samplers hash it."""
+    return (dimension + _PER_BOUNCE * rays.depth) ^ rays.stream
 
 
 def hashed_pixel(px, py, width, seed):

@@ -19,6 +19,7 @@ class Rays:
     sample  (N,) uint32, each path's sample
     depth   bounces behind these rays; 0 leaves the camera
     split   how many rays of this depth stand for one sample of the pixel; their `sample` numbers count them all
+    stream  which of the specular directions were taken; 0 where there never was a choice
     carried what features take along a path, a column each; none where nothing asks for it
     """
 
@@ -31,6 +32,7 @@ class Rays:
     sample: np.ndarray
     depth: int
     split: int = 1
+    stream: int = 0
     carried: Columns = field(default_factory=Columns)
 
     def landed(self, lanes):
@@ -45,6 +47,7 @@ class Rays:
             self.sample.take(lanes),
             self.depth,
             self.split,
+            self.stream,
             self.carried.take(lanes),
         )
 
@@ -60,5 +63,6 @@ class Rays:
             self.sample.take(lanes),
             self.depth,
             self.split,
+            self.stream,
             self.carried.take(lanes),
         )

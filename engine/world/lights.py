@@ -29,9 +29,17 @@ class Group:
 
     def sample(self, row, p, u2):
         """A point on the lights `row` (N,) of the group, or on its only light (None): see `interfaces.Light.sample`."""
-        k = self.k if row is None or self.count == 1 else self.k.take(row)
-        wi, distance, E, pdf = self.light.sample(k, p, u2)
+        wi, distance, E, pdf = self.light.sample(self._rows(row), p, u2)
         return wi, distance, E, pdf if self.is_met else np.full_like(pdf, np.inf)
+
+    def sample_middle(self, row, p, u2):
+        """The same for the middle of the lights; u2 (2, N) counts for those that have none."""
+        k = self._rows(row)
+        middle = getattr(self.light, "middle", None)
+        return self.light.sample(k, p, np.broadcast_to(middle(k), u2.shape) if middle else u2)
+
+    def _rows(self, row):
+        return self.k if row is None or self.count == 1 else self.k.take(row)
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,15 +106,35 @@ class Lights:
 
     def sample(self, index, p, u2):
         """A point on light `index` (N,), or on the only light (None): see `interfaces.Light.sample`."""
+        return self._of_groups(Group.sample, index, p, u2)
+
+    def sample_middle(self, index, p, u2):
+        """The same for the middle of light `index`, (N,) or an integer."""
+        if not isinstance(index, int):
+            return self._of_groups(Group.sample_middle, index, p, u2)
+        group = next(group for group in self.groups if index < group.first + group.count)
+        return group.sample_middle(np.array([index - group.first]), p, u2)
+
+    @property
+    def count(self):
+        """How many lights there are."""
+        return sum(group.count for group in self.groups)
+
+    @property
+    def have_middles(self):
+        """Whether every light can be shrunk to its middle."""
+        return all(hasattr(group.light, "middle") for group in self.groups)
+
+    def _of_groups(self, sample, index, p, u2):
         if len(self.groups) == 1:
-            return self.groups[0].sample(index, p, u2)
+            return sample(self.groups[0], index, p, u2)
         wi, E = np.empty_like(p), np.empty_like(p)
         distance, pdf = np.empty_like(p[0]), np.empty_like(p[0])
         for group in self.groups:
             lanes = np.nonzero((index >= group.first) & (index < group.first + group.count))[0]
             if not lanes.size:
                 continue
-            sampled = group.sample(index.take(lanes) - group.first, p.take(lanes, axis=1), u2.take(lanes, axis=1))
+            sampled = sample(group, index.take(lanes) - group.first, p.take(lanes, axis=1), u2.take(lanes, axis=1))
             wi[:, lanes], distance[lanes], E[:, lanes], pdf[lanes] = sampled
         return wi, distance, E, pdf
 

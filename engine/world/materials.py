@@ -27,12 +27,14 @@ class Materials:
     thresholds  (lobes - 1, M) float32: a material samples the lobe whose interval of [0, 1) holds u1
     shares      (lobes, M) float32: the probability of each lobe, in proportion to its albedo
     emission    (3, M) float32 [W m^-2 sr^-1]
+    ambient     (3, M) float32, k_a
     """
 
     lobes: tuple
     thresholds: np.ndarray
     shares: np.ndarray
     emission: np.ndarray
+    ambient: np.ndarray
 
     @classmethod
     def of(cls, materials, bsdfs):
@@ -46,9 +48,8 @@ class Materials:
             albedos[slot] = [np.dot(LUMINANCE, lobe.albedo()) for lobe in chosen]
         total = albedos.sum(axis=0)
         shares = np.where(total > 0, albedos / np.where(total > 0, total, 1), 1 / max(len(slots), 1)).astype(np.float32)
-        thresholds = np.cumsum(shares, axis=0, dtype=np.float64)[:-1].astype(np.float32)
-        emission = np.array([m.emission for m in materials], np.float32).T.reshape(3, -1)
-        return cls(tuple(lobes), thresholds, shares, emission)
+        emission, ambient = (_colours(getattr(m, name) for m in materials) for name in ("emission", "ambient"))
+        return cls(tuple(lobes), _thresholds(shares), shares, emission, ambient)
 
     @property
     def rough_lobes(self):
@@ -65,6 +66,15 @@ class Materials:
         if len(lobes) > 1 and self.emission.shape[1] > 1:
             thresholds, shares = thresholds.take(material, axis=1), shares.take(material, axis=1)
         return Reflection(tuple(lobes[: self.rough_lobes]), tuple(lobes[self.rough_lobes :]), thresholds, shares)
+
+
+def _colours(colours):
+    return np.array([*colours], np.float32).T.reshape(3, -1)
+
+
+def _thresholds(shares):
+    """Where the intervals of [0, 1) that belong to shares (L, M) end, but for the last one: (L - 1, M) float32."""
+    return np.cumsum(shares, axis=0, dtype=np.float64)[:-1].astype(np.float32)
 
 
 def _count(material, bsdf):
@@ -113,10 +123,28 @@ class Reflection:
             wi, weight, pdf = np.zeros_like(surface.wo), np.zeros_like(surface.wo), np.zeros_like(surface.wo[0])
         for i, lobe in enumerate(self.specular, start=len(self.rough)):
             lanes = self._chosen(i, u1, u2)
-            wi[:, lanes], turned = _scatter_specular(lobe, surface, lanes, u2[0].take(lanes))
+            ((wi[:, lanes], turned),) = _at_surface(_single(lobe.bsdf.scatter, u2[0]), lobe.k, surface, lanes)
             weight[:, lanes] = turned / (np.broadcast_to(self.shares[i], pdf.shape).take(lanes) if u1 is not None else 1)
             pdf[lanes] = np.inf
         return wi, weight, pdf
+
+    def branches(self, surface):
+        """Every direction into which the specular lobes send light, one after the other: wi (3, N), weight (3, N).
+
+        The weight is 0 where nothing goes there.
+        """
+        lanes = np.arange(surface.wo.shape[1])
+        for lobe in self.specular:
+            yield from _at_surface(_all(lobe.bsdf.branches), lobe.k, surface, lanes)
+
+    def without_specular(self):
+        """The rough lobes alone."""
+        if not self.specular:
+            return self
+        shares = self.shares[: len(self.rough)]
+        total = shares.sum(axis=0, dtype=np.float32)
+        shares = np.where(total > 0, shares / np.where(total > 0, total, 1), np.float32(1 / len(self.rough)))
+        return Reflection(self.rough, (), _thresholds(shares), shares)
 
     def _sample_rough(self, n, wo, u1, u2):
         first = self.rough[0]
@@ -145,19 +173,30 @@ class Reflection:
         return np.nonzero(is_chosen)[0]
 
 
-def _scatter_specular(lobe, surface, lanes, u1):
+def _all(branches):
+    """A lobe's `branches`, which need no number."""
+    return lambda k, n, wo, is_front, lanes: branches(k, n, wo, is_front)
+
+
+def _single(scatter, u1):
+    """A lobe's `scatter` as if it were its `branches`: the one direction that u1 (N,) chooses."""
+    return lambda k, n, wo, is_front, lanes: (scatter(k, n, wo, is_front, u1.take(lanes)),)
+
+
+def _at_surface(branches, k, surface, lanes):
+    """The branches (wi, weight) of a specular lobe, `k` a row for each point of `surface` or one for all, at its points `lanes`."""
     n, ns, wo = (a.take(lanes, axis=1) for a in (surface.n, surface.ns, surface.wo))
-    k, is_front = _rows(lobe.k, lanes), surface.is_front.take(lanes)
-    wi, weight = lobe.bsdf.scatter(k, ns, wo, is_front, u1)
-    # Where the shading normal is turned away, or would send reflected light through the surface or refracted light
-    # back, the geometric one decides: specular light has no other way to go, and would be lost.
-    astray = np.nonzero((dot(ns, wo) <= 0) | ((dot(n, wi) > 0) != (dot(ns, wi) > 0)))[0]
-    if astray.size:
-        weight = np.array(np.broadcast_to(weight, wi.shape))
-        wi[:, astray], weight[:, astray] = lobe.bsdf.scatter(
-            _rows(k, astray), n.take(astray, axis=1), wo.take(astray, axis=1), is_front.take(astray), u1.take(astray)
-        )
-    return wi, weight
+    is_front = surface.is_front.take(lanes)
+    for i, (wi, weight) in enumerate(branches(_rows(k, lanes), ns, wo, is_front, lanes)):
+        # Where the shading normal is turned away, or would send reflected light through the surface or refracted light
+        # back, the geometric one decides: specular light has no other way to go, and would be lost.
+        astray = np.nonzero((dot(ns, wo) <= 0) | ((dot(n, wi) > 0) != (dot(ns, wi) > 0)))[0]
+        if astray.size:
+            weight = np.array(np.broadcast_to(weight, wi.shape))
+            there = lanes.take(astray)
+            turned = branches(_rows(k, there), n.take(astray, axis=1), wo.take(astray, axis=1), is_front.take(astray), there)
+            wi[:, astray], weight[:, astray] = turned[i]
+        yield wi, weight
 
 
 def _rows(k, lanes):

@@ -52,15 +52,23 @@ def _drawn(name, ob=None):
 
 
 def test_settings_are_drawn():
-    names = [
-        *_drawn("GLANZ_RENDER_PT_sampling"),
-        *_drawn("GLANZ_RENDER_PT_light_paths"),
-        *_drawn("GLANZ_RENDER_PT_film"),
-        *_drawn("GLANZ_RENDER_PT_performance"),
-    ]
+    panels_of_render = ("sampling", "light_paths", "film", "performance")
+    names = []
+    for integrator in ("path", "distributed", "whitted_phong"):
+        bpy.context.scene.glanz.integrator = integrator
+        names += [name for panel in panels_of_render for name in _drawn(f"GLANZ_RENDER_PT_{panel}")]
     own = {name for name in bpy.context.scene.glanz.bl_rna.properties.keys() if name not in ("rna_type", "name")}  # noqa: SIM118
     assert own <= set(names)
     assert {"threads", "threads_mode"} <= set(names)
+
+
+@pytest.mark.parametrize(
+    ("integrator", "names"),
+    [("path", set()), ("distributed", {"branches", "min_contribution"}), ("whitted_phong", {"min_contribution", "light_falloff"})],
+)
+def test_settings_of_another_integrator_are_not_drawn(integrator, names):
+    bpy.context.scene.glanz.integrator = integrator
+    assert set(_drawn("GLANZ_RENDER_PT_light_paths")) == {"max_depth"} | names
 
 
 def test_panoramas_can_be_edited():

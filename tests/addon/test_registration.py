@@ -5,6 +5,7 @@ import pytest
 
 import glanz
 from glanz.addon import backend, builtin_panels, properties
+from glanz.addon.settings import _OWN
 from glanz.tests.addon import blender
 
 
@@ -78,7 +79,7 @@ def test_choices_are_those_of_the_engines_registries():
 def test_defaults_are_the_engines():
     settings = bpy.context.scene.glanz
     engine = glanz.engine.Settings()
-    for name in ("integrator", "samples", "max_depth", "seed", "sampler", "pixel_filter", "filter_width", "tile_size"):
+    for name in _OWN:
         assert getattr(settings, name) == getattr(engine, name), name
 
 

@@ -21,8 +21,8 @@ BY_PROTOCOL = {
     if isinstance(protocol, type) and protocol.__module__ == interfaces.__name__
     for method in vars(protocol)
     if not method.startswith("_")
-} | {"values"}
-"""Methods that `interfaces` documents once for all plug-ins; `values` of a pass in the text of `Pass`."""
+} | {"values", "middle"}
+"""Methods that `interfaces` documents once for all plug-ins; `values` and `middle` in the texts of `Pass` and `Light`."""
 
 
 def files(*folders):

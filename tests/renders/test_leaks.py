@@ -127,7 +127,7 @@ def test_the_lamp_does_not_stand_in_its_own_light(monkeypatch, name):
 
 def test_lamps_catch_shadow_rays_that_go_all_the_way(monkeypatch):
     """The mutant neither lifts points off the lamp nor shortens the ray."""
-    monkeypatch.setattr(direct, "_SHORTENED", np.float32(1))
+    monkeypatch.setattr(direct, "SHORTENED", np.float32(1))
     monkeypatch.setattr(patches, "END_ULPS", 0)
     occluded, asked, _ = shadow_rays(
         monkeypatch, lamp_over_floor(turn=h.rotation(1)), h.settings(width=32, height=32, samples=4, max_depth=0)

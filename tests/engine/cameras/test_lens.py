@@ -89,7 +89,7 @@ def test_the_aperture_is_as_high_and_as_wide_as_it_says(blades, ratio):
     scene = h.scene([h.thing(h.box())], camera=PerspectiveCamera(world_from_camera=h.affine(translation=(0, 0, 40)), lens=lens))
     plan = h.plan_of(scene, h.settings(samples=4096))
     rays = np.arange(50_000, dtype=np.uint32)
-    rays = SimpleNamespace(key=rays, sample=rays % 4096, depth=0, split=1)
+    rays = SimpleNamespace(key=rays, sample=rays % 4096, depth=0, split=1, stream=0)
     o, _ = through_the_lens(plan, rays, np.zeros(50_000, np.float32), np.zeros(50_000, np.float32))
     x, y = o[:2] / (0.5 * plan.world.frame.scale)
     corners = 2 * np.pi * (np.arange(blades) + 0.5) / blades if blades else np.linspace(0, 2 * np.pi, 361)

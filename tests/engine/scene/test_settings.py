@@ -57,3 +57,18 @@ def test_the_region_is_the_border_or_the_frame():
 def test_settings_cannot_be_changed():
     with pytest.raises(dataclasses.FrozenInstanceError):
         Settings().width = 3
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("branches", 0),
+        ("branches", 2.5),
+        ("min_contribution", -0.1),
+        ("min_contribution", float("nan")),
+        ("light_falloff", 1),
+    ],
+)
+def test_senseless_settings_of_ray_trees_are_refused_by_name(name, value):
+    with pytest.raises(SceneError, match=f"setting {name} is"):
+        Settings(**{name: value})

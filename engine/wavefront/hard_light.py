@@ -1,0 +1,49 @@
+"""Direct light with hard shadows: every light is one point, its middle, and gets a shadow ray of its own."""
+
+import numpy as np
+
+from ..maths.vectors import dot
+from .direct import arriving
+from .numbers import Dimension
+
+MOST_LIGHTS = 64
+"""Up to so many lights are all asked at every hit; of more, one is chosen at random, and there is noise."""
+
+
+def add_hard_light(plan, rays, surface, reflection, film):
+    """Light from the middle of every light, reflected by the rough lobes."""
+    for wi, distance, E in _middles(plan, rays, surface):
+        f, _ = reflection.eval(surface.ns, surface.wo, wi)
+        L = rays.beta * f
+        L *= E * dot(surface.ns, wi)
+        arriving(plan, rays, surface, wi, distance, L, film)
+
+
+def add_illumination(plan, rays, surface, reflection, film):
+    """Light from the middle of every light by the lecture's illumination model, see `integrators.whitted_phong`."""
+    ambient = plan.world.materials.ambient.take(surface.material, axis=1)
+    for wi, distance, E in _middles(plan, rays, surface):
+        I_L = E if plan.settings.light_falloff else E * _of_one_metre(distance, plan.world.frame.scale)
+        film.add(rays.slot, rays.beta * ambient * I_L)
+        shade = sum(lobe.bsdf.illuminate(lobe.k, surface.ns, surface.wo, wi) for lobe in reflection.rough)
+        arriving(plan, rays, surface, wi, distance, rays.beta * shade * I_L, film)
+
+
+def _of_one_metre(distance, scale):
+    """What takes irradiance at `distance` (N,), render space, to that at one metre; lights infinitely far away have no falloff."""
+    metres = distance / np.float32(scale)
+    return np.where(np.isfinite(metres), metres * metres, 1)
+
+
+def _middles(plan, rays, surface):
+    """For each light: wi (3, N) towards its middle, distance (N,), and irradiance E (3, N) of a surface that faces it."""
+    lights = plan.world.lights
+    if lights.count > MOST_LIGHTS:
+        index, probability, u2 = lights.choice.choose(surface.o, plan.numbers.two(rays, Dimension.LIGHT))
+        wi, distance, E, _ = lights.sample_middle(index, surface.o, u2)
+        yield wi, distance, E / probability
+        return
+    u2 = np.empty((2, surface.o.shape[1]), np.float32) if lights.have_middles else plan.numbers.two(rays, Dimension.LIGHT)
+    for index in range(lights.count):
+        wi, distance, E, _ = lights.sample_middle(index, surface.o, u2)
+        yield wi, distance, E
