@@ -58,6 +58,11 @@ class BlinnPhong:
         return k.reflectance * (k.factor * cosine_power(n, h, k.exponent))
 
     @staticmethod
+    def illuminate(k, n, wo, wi):
+        h, _ = _half_vector(n, wo, wi)
+        return k.reflectance * cosine_power(n, h, k.exponent)
+
+    @staticmethod
     def sample(k, n, wo, u2):
         return reflect(wo, sample_lobe(n, u2, k.exponent))
 

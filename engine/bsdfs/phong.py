@@ -12,7 +12,7 @@ below the surface carry nothing and still count.
 from dataclasses import dataclass
 
 from ..maths.lobes import check_exponent, phong_lobe, sample_lobe, sample_lobe_pdf
-from ..maths.vectors import reflect
+from ..maths.vectors import cosine_power, reflect
 from . import registry
 
 

@@ -16,7 +16,7 @@ import numpy as np
 
 from ..constants import EPS32
 from ..maths.lobes import check_exponent, phong_lobe, sample_lobe, sample_lobe_pdf
-from ..maths.vectors import dot, reflect
+from ..maths.vectors import cosine_power, dot, reflect
 from . import registry
 
 
@@ -55,6 +55,10 @@ class PhongLecture:
     def eval(k, n, wo, wi):
         # A cosine below EPS32 is the rounding of directions.
         return k.reflectance * (phong_lobe(reflect(wo, n), wi, k.exponent) / np.maximum(dot(n, wi), EPS32))
+
+    @staticmethod
+    def illuminate(k, n, wo, wi):
+        return k.reflectance * cosine_power(reflect(wo, n), wi, k.exponent)
 
     @staticmethod
     def sample(k, n, wo, u2):

@@ -69,6 +69,10 @@ class CosineSpotLight:
         return wi, distance, E * cosine_power(k.axis, -wi, k.exponent), pdf
 
     @staticmethod
+    def middle(k):
+        return bulbs.MIDDLE
+
+    @staticmethod
     def hit(k, o, d):
         t, L, pdf = bulbs.hit(k, o, d)
         return t, L * cosine_power(k.axis, -d, k.exponent), pdf
