@@ -73,6 +73,10 @@ class GLANZ_RENDER_PT_sampling(GlanzPanel, bpy.types.Panel):
         column.prop(settings, "samples")
         column.prop(settings, "sampler")
         column.prop(settings, "seed")
+        column.prop(settings, "adaptive_threshold")
+        row = column.row()
+        row.active = settings.adaptive_threshold > 0
+        row.prop(settings, "adaptive_levels")
 
 
 class GLANZ_RENDER_PT_light_paths(GlanzPanel, bpy.types.Panel):
@@ -130,7 +134,7 @@ class GLANZ_VIEWLAYER_PT_passes(GlanzPanel, bpy.types.Panel):
         column = self.column()
         for _, row in passes.offered().values():
             if row.flag:
-                column.prop(context.view_layer, row.flag)
+                column.prop(*passes.switch(context.view_layer, row.flag))
 
 
 class GLANZ_VIEWLAYER_PT_override(GlanzPanel, bpy.types.Panel):

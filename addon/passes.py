@@ -11,7 +11,7 @@ from . import backend
 
 @dataclass(frozen=True)
 class BlenderPass:
-    """kind: Blender's channel type; flag: the property of the view layer that switches the pass on, empty: always on."""
+    """kind: Blender's channel type; flag: the property of the view layer that switches the pass on, by its path, empty: always on."""
 
     kind: str
     flag: str = ""
@@ -22,6 +22,7 @@ TABLE = {
     "Combined": BlenderPass("COLOR"),
     "Depth": BlenderPass("VALUE", "use_pass_z"),
     "Normal": BlenderPass("VECTOR", "use_pass_normal"),
+    "Sample Count": BlenderPass("VALUE", "glanz.use_pass_sample_count"),
 }
 
 
@@ -34,7 +35,13 @@ def offered():
 
 def chosen(view_layer):
     """Keys of the passes that are switched on in `view_layer`; Combined always is."""
-    return tuple(key for key, (_, row) in offered().items() if not row.flag or getattr(view_layer, row.flag))
+    return tuple(key for key, (_, row) in offered().items() if not row.flag or getattr(*switch(view_layer, row.flag)))
+
+
+def switch(view_layer, flag):
+    """(owner, name) of the property that is meant by a `flag` of the table."""
+    path, _, name = flag.rpartition(".")
+    return (view_layer.path_resolve(path) if path else view_layer), name
 
 
 def register_passes(engine, scene, view_layer):

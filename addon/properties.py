@@ -1,4 +1,4 @@
-"""The settings of Glanz that a .blend file stores: `scene.glanz`."""
+"""The settings of Glanz that a .blend file stores: `scene.glanz`, and `view_layer.glanz`."""
 
 import zlib
 from functools import cache
@@ -112,6 +112,26 @@ class GlanzSceneSettings(bpy.types.PropertyGroup):
         max=10.0,
         subtype="PIXEL",
     )
+    adaptive_threshold: FloatProperty(
+        name="Adaptive Threshold",
+        description=(
+            "Pixels are divided in four, each part with as many samples as a pixel, where colours differ by more than this: "
+            "0.1 is a tenth of white as displays show it. 0 divides none. Less is smoother edges and more time; "
+            "noise is divided too unless the samples keep it below"
+        ),
+        default=0.0,
+        min=0.0,
+        max=1.0,
+        precision=3,
+        step=1,
+    )
+    adaptive_levels: IntProperty(
+        name="Adaptive Levels",
+        description="How often pixels may be divided: 3 are 8 by 8 parts at most. Each more takes twice the time at edges",
+        default=3,
+        min=1,
+        max=6,
+    )
     tile_size: IntProperty(
         name="Tile Size",
         description=(
@@ -126,11 +146,25 @@ class GlanzSceneSettings(bpy.types.PropertyGroup):
     )
 
 
+class GlanzViewLayerSettings(bpy.types.PropertyGroup):
+    """What Glanz is asked for by a view layer, beside what Blender asks."""
+
+    use_pass_sample_count: BoolProperty(
+        name="Sample Count",
+        description="Deliver how many samples each pixel took; it differs between pixels with an adaptive threshold only",
+        default=False,
+    )
+
+
 def register():
     bpy.utils.register_class(GlanzSceneSettings)
+    bpy.utils.register_class(GlanzViewLayerSettings)
     bpy.types.Scene.glanz = PointerProperty(type=GlanzSceneSettings, name="Glanz", description="Settings of the render engine Glanz")
+    bpy.types.ViewLayer.glanz = PointerProperty(type=GlanzViewLayerSettings, name="Glanz", description="Passes of the render engine Glanz")
 
 
 def unregister():
+    del bpy.types.ViewLayer.glanz
     del bpy.types.Scene.glanz
+    bpy.utils.unregister_class(GlanzViewLayerSettings)
     bpy.utils.unregister_class(GlanzSceneSettings)

@@ -19,6 +19,8 @@ _OWN = (
     "sampler",
     "pixel_filter",
     "filter_width",
+    "adaptive_threshold",
+    "adaptive_levels",
     "tile_size",
 )
 """Read from `scene.glanz`; the names are the same on both sides."""

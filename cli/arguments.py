@@ -46,6 +46,8 @@ def _add_render(commands):
         ("min-contribution", float, "what a ray must count at least to be followed in whitted and distributed, 0 to 1"),
         ("seed", int, "another number, other noise"),
         ("threads", int, "worker threads; 0: one per processor"),
+        ("adaptive-threshold", float, "divide pixels where colours differ by more, from 0, never, to 1"),
+        ("adaptive-levels", int, "how often, from 1 to 6, in four parts each time"),
         ("pixel-filter", str, "pixel filter: blackman_harris, gaussian, tent, mitchell, box"),
     ):
         command.add_argument(f"--{name}", type=kind, metavar=name[0].upper() if kind is str else "N", help=text)

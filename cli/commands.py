@@ -10,7 +10,19 @@ from ..engine.scene.validate import validate
 from .outputs import default_output, numbered
 from .sources import open_source
 
-OVERRIDES = ("integrator", "sampler", "samples", "max_depth", "branches", "min_contribution", "seed", "threads", "pixel_filter")
+OVERRIDES = (
+    "integrator",
+    "sampler",
+    "samples",
+    "max_depth",
+    "branches",
+    "min_contribution",
+    "seed",
+    "threads",
+    "adaptive_threshold",
+    "adaptive_levels",
+    "pixel_filter",
+)
 """Arguments that stand for settings of the same name."""
 
 

@@ -200,14 +200,14 @@ class Pass(Protocol):
     """One result of a render: as many channels as `channels` has letters.
 
     at_first_hit  `values(plan, surface)` (C, M) is recorded where camera rays hit; elsewhere it is `background`
-    is_average    a pixel is the mean of its samples; else its first sample
+    reduction     what a pixel is of its samples: their "mean", the "first" of them, or their "sum"
     """
 
     key: str
     label: str
     channels: str
     at_first_hit: bool
-    is_average: bool
+    reduction: str
 
     @staticmethod
     def gather(radiance, first_hits):

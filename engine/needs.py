@@ -11,6 +11,7 @@ LIGHT_HITS = "light hits"
 BACKGROUND = "background"
 LENS = "lens"
 CLIP_RANGE = "clip range"
+ADAPTIVE = "adaptive supersampling"
 
 MEANING = {
     GEOMETRY: "triangles to intersect",
@@ -21,6 +22,7 @@ MEANING = {
     BACKGROUND: "light from the world",
     LENS: "a camera with an aperture, out of focus at other distances than one",
     CLIP_RANGE: "a camera that does not see what is too near or too far",
+    ADAPTIVE: "pixels that are divided where colours differ",
 }
 
 

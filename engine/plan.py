@@ -6,11 +6,13 @@ from . import needs
 from .arrays import Columns, columns
 from .registry import FILTERS, INTEGRATORS, PASSES, SAMPLERS
 from .scene.settings import Settings
+from .wavefront.adaptive import AdaptiveTile
 from .wavefront.camera_rays import bladed_aperture, round_aperture, through_the_lens, through_the_pinhole
 from .wavefront.clip import clip_row, meet_in_range, start_in_range
 from .wavefront.emission import add_emission
 from .wavefront.escape import add_background, add_light_hits
 from .wavefront.numbers import Numbers, one_of_the_lobes, only_lobe
+from .wavefront.tiles import EvenTile
 from .wavefront.visibility import closest, interact_at_rest, meet_nearest, occluded, unblocked
 from .world.compile import CompiledWorld, compile_world
 from .world.interaction import flat_normals, leave_in_front, leave_on_either_side, smooth_normals
@@ -33,6 +35,7 @@ class Plan:
     on_surface         stages (plan, rays, surface, reflection, film) at every surface: direct light
     on_leaving         stages (plan, rays, surface, scattered) that renew what scattered rays carry
     first_hits         the passes that record where camera rays hit
+    tile               how the pixels of a tile are sampled, see `wavefront.tiles`
     last_depth         the depth of the last rays that are traced
     The other functions are choices that cost nothing where there is nothing to choose.
     """
@@ -59,6 +62,7 @@ class Plan:
     on_leaving: tuple
     first_hits: tuple
     passes: tuple
+    tile: type
     scatter: object
     shading_normals: object
     choose_lobe: object
@@ -107,6 +111,7 @@ class Plan:
             on_leaving=(),
             first_hits=tuple(p for p in chosen if p.at_first_hit),
             passes=chosen,
+            tile=AdaptiveTile if needs.ADAPTIVE in requirements else EvenTile,
             scatter=integrator.scatter,
             shading_normals=smooth_normals if smooth else flat_normals,
             choose_lobe=one_of_the_lobes if len(world.materials.lobes) > 1 else only_lobe,

@@ -13,7 +13,6 @@ from .plan import Plan
 from .requirements import Requirements
 from .scene.validate import validate
 from .wavefront.camera_rays import camera_rays
-from .wavefront.film import Film
 from .wavefront.loop import trace
 from .wavefront.signed_filter import sample_weights
 
@@ -77,8 +76,8 @@ def render(scene, settings):
 def render_plan(plan):
     """`render` for a `Plan` that is made already."""
     settings = plan.settings
-    tiles = _tiles(settings)
-    work = _Work(sum(w * h for _, _, w, h in tiles) * settings.samples)
+    tiles = _tiles(settings, plan.tile.longest_side(settings))
+    work = _Work(tiles)
     workers = min(settings.threads or os.cpu_count() or 1, len(tiles))
     with ThreadPoolExecutor(workers, thread_name_prefix="glanz") as pool:
         try:
@@ -120,6 +119,8 @@ def metadata(scene, settings):
         "glanz.samples": str(settings.samples),
         "glanz.max_depth": str(settings.max_depth),
         "glanz.seed": str(settings.seed),
+        "glanz.adaptive_threshold": f"{settings.adaptive_threshold:g}",
+        "glanz.adaptive_levels": str(settings.adaptive_levels),
         "glanz.pixel_filter": settings.pixel_filter,
         "glanz.requirements": ", ".join(Requirements.of(scene, settings).needs),
     }
@@ -128,17 +129,19 @@ def metadata(scene, settings):
 class _Work:
     """What the threads of one render share."""
 
-    def __init__(self, paths):
+    def __init__(self, tiles):
         self.cancelled = threading.Event()
         self._lock = threading.Lock()
-        self._paths = paths
-        self._finished = 0
+        self._pixels = sum(width * height for _, _, width, height in tiles)
+        self._finished = {}
         self._bad_samples = 0
         self._unfinished = []
 
-    def finish(self, paths):
+    def finish(self, tile, share):
+        """The `share` of the work on a tile that is done, in [0, 1]."""
+        _, _, width, height = tile
         with self._lock:
-            self._finished += paths
+            self._finished[tile] = share * width * height
 
     def show(self, tile):
         with self._lock:
@@ -155,7 +158,8 @@ class _Work:
 
     @property
     def done(self):
-        return self._finished / self._paths
+        with self._lock:
+            return sum(self._finished.values()) / self._pixels
 
     def take_warnings(self):
         with self._lock:
@@ -163,41 +167,41 @@ class _Work:
         return (f"{bad} samples were not finite and count as black",) if bad else ()
 
 
-def _tiles(settings):
+def _tiles(settings, longest_side):
     """(x, y, width, height) of all tiles, from the middle outwards."""
     x0, y0, x1, y1 = settings.region
-    size = settings.tile_size or max(x1 - x0, y1 - y0)
+    size = min(settings.tile_size or max(x1 - x0, y1 - y0), longest_side)
     tiles = [(x, y, min(size, x1 - x), min(size, y1 - y)) for y in range(y0, y1, size) for x in range(x0, x1, size)]
     cx, cy = 0.5 * (x0 + x1), 0.5 * (y0 + y1)
     return sorted(tiles, key=lambda tile: max(abs(tile[0] + 0.5 * tile[2] - cx), abs(tile[1] + 0.5 * tile[3] - cy)))
 
 
-def _render_tile(plan, tile, work):
-    x, y, width, height = tile
-    film = Film(width * height, plan.passes)
-    py, px = np.divmod(np.arange(width * height), width)
-    px, py = px + x, py + y
+def _render_tile(plan, place, work):
+    tile = plan.tile(plan, place)
+    samples = plan.settings.samples
+    weights = sample_weights(plan.filter, samples)
     shown = time.monotonic()
-    weights = sample_weights(plan.filter, plan.settings.samples)
-    for window, first, count in _batches(width * height, plan.settings.samples):
-        film.open(count, window, weights[first : first + count])
-        rays = camera_rays(plan, px[window], py[window], first, count)
-        if not trace(plan, rays, film, work.cancelled.is_set):
-            return None
-        film.close(is_first=first == 0)
-        work.finish(count * (window.stop - window.start))
-        if time.monotonic() - shown > SHOW_SECONDS:
-            work.show(_tile(tile, film, is_final=False))
-            shown = time.monotonic()
-    work.count_bad(film.bad_samples)
-    return _tile(tile, film, is_final=True)
+    for number, (film, pixels) in enumerate(tile.rounds()):
+        paths = 0
+        for window, first, count in _batches(pixels.px.size, samples):
+            film.open(count, window, weights[first : first + count])
+            rays = camera_rays(plan, pixels.part(window), first, count)
+            if not trace(plan, rays, film, work.cancelled.is_set):
+                return None
+            film.close(is_first=first == 0)
+            paths += rays.slot.size
+            work.finish(place, (number + paths / (pixels.px.size * samples)) / tile.most_rounds(plan.settings))
+            if time.monotonic() - shown > SHOW_SECONDS:
+                work.show(_tile(place, tile.result(), is_final=False))
+                shown = time.monotonic()
+        work.count_bad(film.bad_samples)
+    work.finish(place, 1)
+    return _tile(place, tile.result(), is_final=True)
 
 
-def _tile(place, film, is_final):
+def _tile(place, values, is_final):
     x, y, width, height = place
-    passes = {
-        name: np.ascontiguousarray(values.reshape(-1, height, width).transpose(1, 2, 0)) for name, values in film.result().items()
-    }
+    passes = {name: np.ascontiguousarray(v.reshape(-1, height, width).transpose(1, 2, 0)) for name, v in values.items()}
     return Tile(x, y, width, height, passes, is_final)
 
 

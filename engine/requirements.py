@@ -29,6 +29,8 @@ class Requirements:
         ask(needs.of_plugin("filter", FILTERS[settings.pixel_filter]), "settings")
         for key in settings.passes:
             ask(needs.of_plugin("pass", PASSES[key]), "settings")
+        if settings.adaptive_threshold:
+            ask(needs.ADAPTIVE, "settings")
         camera = scene.camera
         ask(needs.of_plugin("camera", type(camera)), camera.name)
         if camera.lens.is_open:

@@ -13,7 +13,7 @@ class Combined:
     label = "Combined"
     channels = "RGBA"
     at_first_hit = False
-    is_average = True
+    reduction = "mean"
 
     @staticmethod
     def gather(radiance, first_hits):

@@ -11,7 +11,7 @@ class Depth:
     label = "Depth"
     channels = "Z"
     at_first_hit = True
-    is_average = False
+    reduction = "first"
     background = 1e10
 
     @staticmethod

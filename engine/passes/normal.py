@@ -11,7 +11,7 @@ class Normal:
     label = "Normal"
     channels = "XYZ"
     at_first_hit = True
-    is_average = True
+    reduction = "mean"
     background = 0.0
 
     @staticmethod

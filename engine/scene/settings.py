@@ -22,6 +22,8 @@ class Settings:
     sampler        name of a sampler
     pixel_filter   name of a pixel filter
     filter_width   full width of the pixel filter [px]; the box is always one pixel wide
+    adaptive_threshold  how much colours [0, 1] must differ for a pixel to be divided, see `wavefront.adaptive`; 0: none is
+    adaptive_levels     how often it may be, in four each time; `samples` is then that of each part
     passes         names of passes, see the registry
     tile_size      side of the square tiles [px]; 0: the whole frame; does not change the picture
     threads        worker threads; 0: one per processor; does not change the picture
@@ -40,6 +42,8 @@ class Settings:
     sampler: str = "stratified"
     pixel_filter: str = "blackman_harris"
     filter_width: float = 1.5
+    adaptive_threshold: float = 0.0
+    adaptive_levels: int = 3
     passes: tuple = ("Combined",)
     tile_size: int = 64
     threads: int = 0
@@ -51,6 +55,7 @@ class Settings:
             ("samples", 1, 2**24),
             ("max_depth", 0, 2**16),
             ("branches", 1, 2**12),
+            ("adaptive_levels", 1, 6),
             ("tile_size", 0, 65536),
             ("threads", 0, 1024),
         ):
@@ -65,6 +70,8 @@ class Settings:
             raise SceneError(f"setting min_contribution is {self.min_contribution!r}, allowed: 0 to 1")
         if not (isinstance(self.filter_width, (int, float)) and math.isfinite(self.filter_width) and 0.0 < self.filter_width <= 10.0):
             raise SceneError(f"setting filter_width is {self.filter_width!r} px, allowed: above 0 up to 10")
+        if not (isinstance(self.adaptive_threshold, (int, float)) and 0.0 <= self.adaptive_threshold <= 1.0):
+            raise SceneError(f"setting adaptive_threshold is {self.adaptive_threshold!r}, allowed: from 0 to 1")
         object.__setattr__(self, "passes", tuple(self.passes))
         object.__setattr__(self, "border", tuple(self.border))
         self._check_border()

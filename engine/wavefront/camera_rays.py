@@ -8,13 +8,14 @@ from .records import Rays
 from .signed_filter import negative_samples, offsets
 
 
-def camera_rays(plan, px, py, first, count):
-    """`Rays` for samples first .. first + count - 1 of the pixels px, py (P,) int: slot = sample * P + pixel.
+def camera_rays(plan, pixels, first, count):
+    """`Rays` for samples first .. first + count - 1 of `pixels`, P `tiles.Pixels` or parts of some: slot = sample * P + pixel.
 
     A pixel is known by its place in the full frame, so that a border renders to the pixels of the whole picture.
     """
     settings = plan.settings
-    key = plan.numbers.keys(px, py, settings)
+    px, py = pixels.px, pixels.py
+    key = pixels.keys(plan.numbers, settings)
     n = count * px.size
     rays = Rays(
         o=np.zeros((3, n), np.float32),
@@ -29,7 +30,7 @@ def camera_rays(plan, px, py, first, count):
     for name, start in plan.carry:
         setattr(rays.carried, name, start(plan, rays))
     negative = negative_samples(plan.filter, settings.samples)[first : first + count]
-    dx, dy = offsets(plan.filter, plan.numbers.two(rays, Dimension.FILTER), settings.filter_width, negative)
+    dx, dy = offsets(plan.filter, pixels.spread(plan.numbers.two(rays, Dimension.FILTER)), settings.filter_width, negative)
     # Measured from the middle of the frame, where half pixels are exact.
     x = np.tile((px + (0.5 - 0.5 * settings.width)).astype(np.float32), count) + dx
     y = np.tile((py + (0.5 - 0.5 * settings.height)).astype(np.float32), count) + dy

@@ -48,14 +48,19 @@ class Film:
             values = p.gather(self.radiance, self.first_hits.get(p.key))
             samples = values.reshape(len(values), self._count, -1)
             total = self.sums[p.key][:, self._window]
-            if p.is_average:
-                for i in range(self._count):
-                    total += samples[:, i] * self._weights[i] if len(self._weights) else samples[:, i]
-            elif is_first:
-                total += samples[:, 0]
+            if p.reduction == "first":
+                total += samples[:, 0] if is_first else 0
+                continue
+            is_weighted = len(self._weights) and p.reduction == "mean"
+            for i in range(self._count):
+                total += samples[:, i] * self._weights[i] if is_weighted else samples[:, i]
         self.samples[self._window] += self._count
 
-    def result(self):
-        """{pass: (C, P) float32} of the samples gathered so far; 0, alpha too, for pixels without any."""
+    def pixels(self):
+        """{pass: (C, P) float64} of the samples gathered so far; 0, alpha too, for pixels without any."""
         count = np.maximum(self.samples, 1)
-        return {p.key: (self.sums[p.key] / (count if p.is_average else 1)).astype(np.float32) for p in self.passes}
+        return {p.key: self.sums[p.key] / (count if p.reduction == "mean" else 1) for p in self.passes}
+
+    def result(self):
+        """`pixels` in float32."""
+        return {key: values.astype(np.float32) for key, values in self.pixels().items()}

@@ -80,7 +80,7 @@ def test_panoramas_can_be_edited():
 
 
 def test_passes_are_drawn():
-    assert _drawn("GLANZ_VIEWLAYER_PT_passes") == ["use_pass_z", "use_pass_normal"]
+    assert _drawn("GLANZ_VIEWLAYER_PT_passes") == ["use_pass_z", "use_pass_normal", "use_pass_sample_count"]
     assert "material_override" in _drawn("GLANZ_VIEWLAYER_PT_override")
 
 

@@ -39,6 +39,26 @@ def test_passes_are_those_of_the_view_layer(furnace, tmp_path):
     assert "ViewLayer.Normal" not in blender.read_exr(blender.render(tmp_path / "b.exr"))
 
 
+def test_pixels_are_divided_at_edges_alone(tmp_path):
+    """A plane that glows and covers half of pixel 16: with four levels its coverage to 1 %, and the file says where samples went."""
+    blender.add_camera(location=(0, 0, 5), type="ORTHO", ortho_scale=1.0, width=32, height=32)
+    lamp = blender.new_material("Lamp", "ShaderNodeEmission", Color=(1, 1, 1, 1), Strength=1)
+    blender.add_plane(size=2, location=(1 + 0.5 / 32, 0, 0)).data.materials.append(lamp)
+    glanz = bpy.context.scene.glanz
+    glanz.samples, glanz.pixel_filter, glanz.adaptive_threshold, glanz.adaptive_levels = 1, "box", 0.2, 4
+    bpy.context.view_layer.glanz.use_pass_sample_count = True
+    path = blender.render(tmp_path / "a.exr")
+    passes = blender.read_exr(path)
+    picture, count = passes["ViewLayer.Combined"][..., 0], np.squeeze(passes["ViewLayer.Sample Count"])
+    np.testing.assert_allclose(picture[:, 16], 0.5, atol=0.07)
+    np.testing.assert_allclose(picture[:, 16].mean(), 0.5, atol=0.01)
+    assert (picture[:, :16] == 0).all()
+    assert (picture[:, 17:] == 1).all()
+    assert (count[:, :14] == 1).all()
+    assert (count[:, 16] > 30).all()
+    assert blender.header(path)["glanz.adaptive_threshold"] == "0.2"
+
+
 def test_the_file_says_how_it_was_made(furnace, tmp_path):
     bpy.context.scene.glanz.samples = 3
     header = blender.header(blender.render(tmp_path / "a.exr"))

@@ -23,7 +23,8 @@ def passes_of(scene, **changes):
 def test_a_pass_offers_the_interface(plugin):
     assert isinstance(plugin, Pass)
     assert PASSES[plugin.key] is plugin
-    assert plugin.channels in ("RGBA", "RGB", "Z", "XYZ")
+    assert plugin.channels in ("RGBA", "RGB", "X", "Z", "XYZ")
+    assert plugin.reduction in ("mean", "first", "sum")
     assert not plugin.at_first_hit or isinstance(plugin.background, float)
     assert plugin.__doc__.strip()
 
@@ -43,7 +44,9 @@ def test_a_pass_renders_alone_as_beside_all_others(plugin):
 @each
 def test_a_pass_of_an_empty_scene_is_its_background(plugin):
     values = passes_of(h.scene(world=0.25))[plugin.key]
-    if plugin.at_first_hit:
+    if plugin.reduction == "sum":
+        assert (values == 4).all()
+    elif plugin.at_first_hit:
         assert (values == np.float32(plugin.background)).all()
     else:
         assert (values == np.array((0.25, 0.25, 0.25, 1.0), np.float32)).all()

@@ -78,6 +78,8 @@ def test_settings_ask_too():
     found = Requirements.of(h.scene(), h.replaced(SETTINGS, sampler="random", pixel_filter="blackman_harris", passes=("Depth",))).as_dict()
     assert found["sampler random"] == found["filter blackman_harris"] == found["pass Depth"] == ["settings"]
     assert "pass Combined" not in found
+    found = Requirements.of(h.scene(), h.replaced(SETTINGS, adaptive_threshold=0.1)).as_dict()
+    assert found["adaptive supersampling"] == ["settings"]
 
 
 def test_names_appear_once_in_the_order_of_the_scene():

@@ -173,9 +173,9 @@ def test_calls_to_embree_of_any_size_change_no_bit(all_reference, monkeypatch):
 def test_bits_catch_numbers_that_depend_on_the_tile(all_reference, monkeypatch):
     camera_rays = rendering.camera_rays
 
-    def by_place_in_tile(plan, px, py, first, count):
-        rays = camera_rays(plan, px, py, first, count)
-        return h.replaced(rays, key=rays.key ^ np.uint32(px.size))
+    def by_place_in_tile(plan, pixels, first, count):
+        rays = camera_rays(plan, pixels, first, count)
+        return h.replaced(rays, key=rays.key ^ np.uint32(pixels.px.size))
 
     monkeypatch.setattr(rendering, "camera_rays", by_place_in_tile)
     a, b = all_passes(h.replaced(FULL, tile_size=5)), all_passes(h.replaced(FULL, tile_size=16))

@@ -62,7 +62,9 @@ def a_scene():
     )
 
 
-SETTINGS = Settings(width=320, height=200, border=(1, 2, 30, 40), seed=2**70, passes=("Combined", "Depth"), filter_width=0.1)
+SETTINGS = Settings(
+    width=320, height=200, border=(1, 2, 30, 40), seed=2**70, passes=("Combined", "Depth"), filter_width=0.1, adaptive_threshold=0.3
+)
 
 
 def same(a, b):

@@ -33,6 +33,18 @@ def test_a_filter_has_a_width(value):
         Settings(filter_width=value)
 
 
+@pytest.mark.parametrize("value", [-0.1, 1.5, float("nan"), float("inf"), "0", None])
+def test_a_threshold_of_colours_is_a_share(value):
+    with pytest.raises(SceneError, match=f"setting adaptive_threshold is {value!r}, allowed: from 0 to 1"):
+        Settings(adaptive_threshold=value)
+
+
+@pytest.mark.parametrize("value", [0, 7, 2.0, True])
+def test_pixels_can_be_divided_six_times(value):
+    with pytest.raises(SceneError, match=f"setting adaptive_levels is {value!r}, allowed: whole numbers from 1 to 6"):
+        Settings(adaptive_levels=value)
+
+
 @pytest.mark.parametrize(
     "border", [(0, 0, 0, 8), (0, 0, 9, 8), (-1, 0, 8, 8), (0, 0, 8), (4, 4, 2, 8), (0.0, 0, 8, 8), (0, 5, 8, 5)], ids=str
 )

@@ -5,6 +5,7 @@ import pytest
 
 from glanz.engine.passes.combined import Combined
 from glanz.engine.passes.depth import Depth
+from glanz.engine.passes.sample_count import SampleCount
 from glanz.engine.wavefront.film import Film
 
 
@@ -78,3 +79,14 @@ def test_a_pass_of_the_first_sample_ignores_the_others():
         film.first_hits["Depth"][0] = (7 + first, 9)
         film.close(is_first=first == 0)
     assert film.result()["Depth"].tolist() == [[7]]
+
+
+def test_a_pass_of_a_sum_counts_every_sample_once():
+    """Whatever the samples weigh in the mean, in whatever batches."""
+    film = Film(2, (Combined, SampleCount))
+    weights = np.array((1.5, 0.5, 1.0))
+    for first, count in ((0, 2), (2, 1)):
+        film.open(count, slice(0, 2), weights[first : first + count])
+        film.close(is_first=first == 0)
+    assert film.result()["Sample Count"].tolist() == [[3, 3]]
+    assert film.result()["Combined"][3].tolist() == [1, 1]

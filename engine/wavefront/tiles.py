@@ -1,0 +1,64 @@
+"""What is sampled of a tile, and in which order: here all of its pixels alike, in `adaptive` some more than others."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .film import Film
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Pixels:
+    """Whole pixels, px, py (P,) int in the full frame, as something to send camera rays through."""
+
+    px: np.ndarray
+    py: np.ndarray
+
+    def part(self, window):
+        """Those of the slice `window`."""
+        return Pixels(self.px[window], self.py[window])
+
+    def keys(self, numbers, settings):
+        """What the random numbers know each by, (P,) uint32."""
+        return numbers.keys(self.px, self.py, settings)
+
+    def spread(self, u2):
+        """Numbers u2 (2, S * P) in [0, 1) over the filter of a pixel, as numbers over what is to be sampled of it."""
+        return u2
+
+
+class EvenTile:
+    """All pixels of a tile get the same number of samples.
+
+    Tiles have longest_side(settings) [px], which they may not exceed, and most_rounds(settings). `rounds()` yields
+    (film, what to sample into it) one after the other, and goes on when that has been done; `result()` at any time
+    is {pass: (C, P) float32} of what has been sampled so far.
+    """
+
+    @staticmethod
+    def longest_side(settings):
+        """No limit of its own."""
+        return max(settings.width, settings.height)
+
+    @staticmethod
+    def most_rounds(settings):
+        """One round is all."""
+        return 1
+
+    def __init__(self, plan, place):
+        self._pixels = Pixels(*rectangle(*place))
+        self._film = Film(self._pixels.px.size, plan.passes)
+
+    def rounds(self):
+        """All pixels in one round."""
+        yield self._film, self._pixels
+
+    def result(self):
+        """What the film says."""
+        return self._film.result()
+
+
+def rectangle(x, y, width, height):
+    """x, y (width * height,) of all places of a rectangle, row by row."""
+    row, column = np.divmod(np.arange(width * height), width)
+    return column + x, row + y
