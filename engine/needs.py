@@ -12,6 +12,8 @@ BACKGROUND = "background"
 LENS = "lens"
 CLIP_RANGE = "clip range"
 ADAPTIVE = "adaptive supersampling"
+ABSORPTION = "absorption"
+NESTED_MEDIA = "nested media"
 
 MEANING = {
     GEOMETRY: "triangles to intersect",
@@ -23,6 +25,8 @@ MEANING = {
     LENS: "a camera with an aperture, out of focus at other distances than one",
     CLIP_RANGE: "a camera that does not see what is too near or too far",
     ADAPTIVE: "pixels that are divided where colours differ",
+    ABSORPTION: "media that weaken light on its way through",
+    NESTED_MEDIA: "bodies that let light in and may share space, so that boundaries are between two media",
 }
 
 

@@ -6,6 +6,7 @@ from . import needs
 from .arrays import Columns, columns
 from .registry import FILTERS, INTEGRATORS, PASSES, SAMPLERS
 from .scene.settings import Settings
+from .wavefront import media
 from .wavefront.adaptive import AdaptiveTile
 from .wavefront.camera_rays import bladed_aperture, round_aperture, through_the_lens, through_the_pinhole
 from .wavefront.clip import clip_row, meet_in_range, start_in_range
@@ -75,11 +76,14 @@ class Plan:
         bsdfs = requirements.plugins("bsdf")
         smooth = needs.SMOOTH_NORMALS in requirements
         integrator = INTEGRATORS[settings.integrator]
-        world = compile_world(scene, bsdfs, smooth, needs.LIGHT_CHOICE in requirements, integrator.samples_lights)
+        absorbs, is_nested = needs.ABSORPTION in requirements, needs.NESTED_MEDIA in requirements
+        has_media = absorbs or is_nested
+        world = compile_world(scene, bsdfs, smooth, needs.LIGHT_CHOICE in requirements, integrator.samples_lights, has_media)
         can_reflect = bool(world.materials.lobes)
         on_rays = (
+            *((media.add_light_hits_in_media if absorbs else add_light_hits,) if needs.LIGHT_HITS in requirements else ()),
+            *((media.absorb,) if absorbs else ()),
             *((add_background,) if needs.BACKGROUND in requirements else ()),
-            *((add_light_hits,) if needs.LIGHT_HITS in requirements else ()),
             *((add_emission,) if needs.EMISSIVE_MESHES in requirements and world.emitters.count else ()),
         )
         can_sample = integrator.samples_lights and world.materials.rough_lobes and not world.lights.is_empty
@@ -95,20 +99,23 @@ class Plan:
             filter=FILTERS[settings.pixel_filter],
             camera=type(camera),
             camera_k=columns([row]),
-            carry=(),
+            carry=(("inside", media.in_no_body),) if has_media else (),
             aim=through_the_lens if needs.LENS in requirements else through_the_pinhole,
             aperture=bladed_aperture if camera.lens.blades else round_aperture,
-            on_camera_rays=(start_in_range,) if is_clipped else (),
-            closest=closest,
-            occluded=occluded,
+            on_camera_rays=(
+                *((start_in_range,) if is_clipped else ()),
+                *((media.start_inside(closest),) if has_media else ()),
+            ),
+            closest=media.through_media(closest) if is_nested else closest,
+            occluded=media.occluded_in_media(occluded, media.through_media(closest)) if is_nested else occluded,
             meet=meet_in_range if is_clipped else meet_nearest,
-            unblocked=unblocked,
+            unblocked=media.absorbed(unblocked) if absorbs else unblocked,
             on_rays=on_rays,
             interact=interact_at_rest,
             adjust_surface=(),
-            adjust_reflection=(),
+            adjust_reflection=(media.relative_indices,) if is_nested else (),
             on_surface=integrator.on_surface if can_sample else (),
-            on_leaving=(),
+            on_leaving=(media.change_media,) if has_media else (),
             first_hits=tuple(p for p in chosen if p.at_first_hit),
             passes=chosen,
             tile=AdaptiveTile if needs.ADAPTIVE in requirements else EvenTile,
@@ -117,5 +124,5 @@ class Plan:
             choose_lobe=one_of_the_lobes if len(world.materials.lobes) > 1 else only_lobe,
             leave=leave_on_either_side if any(lobe.bsdf.transmits for lobe in world.materials.lobes) else leave_in_front,
             # After the last bounce scattered rays share the search for direct light with shadow rays, where they can find any.
-            last_depth=settings.max_depth + bool(on_rays and integrator.is_complete) if can_reflect else 0,
+            last_depth=settings.max_depth + bool({*on_rays} - {media.absorb} and integrator.is_complete) if can_reflect else 0,
         )

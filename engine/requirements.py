@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from . import needs
 from .registry import BSDFS, CAMERAS, FILTERS, INTEGRATORS, LIGHTS, PASSES, SAMPLERS
+from .scene.bodies import inside_of, sharing_space
 
 
 @dataclass(frozen=True)
@@ -37,6 +38,12 @@ class Requirements:
             ask(needs.LENS, camera.name)
         if camera.clip_start > 0 or camera.clip_end < math.inf:
             ask(needs.CLIP_RANGE, camera.name)
+        bodies = [o for o in scene.objects if inside_of(o)]
+        for o in sharing_space(bodies):
+            ask(needs.NESTED_MEDIA, o.name)
+        for material in dict.fromkeys(material for o in bodies for material in inside_of(o)):
+            if material.medium is not None and any(material.medium.absorption):
+                ask(needs.ABSORPTION, material.name)
         for o in scene.objects:
             if not o.mesh.triangles.shape[1]:
                 continue

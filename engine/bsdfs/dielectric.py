@@ -25,7 +25,8 @@ from . import registry
 class Dielectric:
     """A smooth boundary: Fresnel reflection and refraction.
 
-    ior            index of refraction behind the front of the surface over that before it, > 0
+    ior            index of refraction behind the front of the surface, > 0, over that of the vacuum; where bodies share space,
+                   of what is behind it alone, and the boundary is between that and the medium which is really before it
     reflectance    k_r, tint of what is reflected; 1 is physical
     transmittance  k_t, tint of what passes the surface, each time; 1 is physical
     is_fresnel     whether Fresnel's equations share the light; else k_r and k_t themselves are the shares

@@ -1,7 +1,8 @@
 """Immutable scene values: what a user hands to the renderer."""
 
 from .lens import Lens
+from .medium import Medium
 from .settings import Settings
 from .values import Material, Mesh, Object, Scene, World
 
-__all__ = ["Lens", "Material", "Mesh", "Object", "Scene", "Settings", "World"]
+__all__ = ["Lens", "Material", "Medium", "Mesh", "Object", "Scene", "Settings", "World"]

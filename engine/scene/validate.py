@@ -7,6 +7,7 @@ import numpy as np
 
 from ..errors import SceneError
 from ..registry import BSDFS, CAMERAS, FILTERS, INTEGRATORS, LIGHTS, PASSES, SAMPLERS
+from .medium import Medium
 
 
 def validate(scene, settings):
@@ -61,6 +62,10 @@ def _check_material(material):
     for name in ("emission", "ambient"):
         if not _is_colour(value := getattr(material, name)):
             raise SceneError(f"material '{material.name}': {name} is {value}, allowed: three finite numbers from 0 on")
+    if material.medium is not None:
+        if type(material.medium) is not Medium:
+            raise SceneError(f"material '{material.name}': {type(material.medium).__name__} is not a medium")
+        material.medium.check(material.name)
     total = np.zeros(3)
     for lobe in material.lobes:
         if type(lobe) not in BSDFS.values():

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..arrays import frozen
 from ..errors import SceneError
+from .medium import Medium
 
 
 def _array(owner, name, dtype, shape):
@@ -70,12 +71,14 @@ class Material:
     lobes     BSDF values (`Lambert`, `Phong`, ...); none: black
     emission  radiance leaving both sides [W m^-2 sr^-1], linear Rec. 709
     ambient   k_a of the lecture's illumination model, the share of each light that arrives everywhere; no other model knows it
+    medium    the `Medium` behind surfaces that let light pass; None: nothing is known of it, and nothing is absorbed
     """
 
     name: str
     lobes: tuple = ()
     emission: tuple = (0.0, 0.0, 0.0)
     ambient: tuple = (0.0, 0.0, 0.0)
+    medium: Medium | None = None
 
     def __post_init__(self):
         object.__setattr__(self, "lobes", tuple(self.lobes))

@@ -13,6 +13,12 @@ def add_background(plan, rays, hits, film):
 
 def add_light_hits(plan, rays, hits, film):
     """Light objects nearer than the geometry; they do not hide what is behind them."""
+    for lanes, _, L in light_hits(plan, rays, hits):
+        film.add(rays.slot.take(lanes), L)
+
+
+def light_hits(plan, rays, hits):
+    """For each light object that rays meet: which rays (M,), how far away (M,), and the radiance (3, M) that counts."""
     for lamp in plan.world.lights.hittable if rays.depth else plan.world.lights.visible:
         t, L, pdf = lamp.light.hit(lamp.k, rays.o, rays.d)
         lanes = np.nonzero(t < hits.t)[0]
@@ -23,4 +29,4 @@ def add_light_hits(plan, rays, hits, film):
             chosen = plan.world.lights.choice.probability(np.full(lanes.size, lamp.index), rays.o.take(lanes, axis=1))
             light_pdf = np.broadcast_to(pdf, t.shape).take(lanes) * chosen
             L *= power_heuristic(rays.pdf.take(lanes), light_pdf)
-        film.add(rays.slot.take(lanes), L)
+        yield lanes, t.take(lanes), L

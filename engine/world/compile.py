@@ -12,6 +12,7 @@ from .emitters import Emitters
 from .frame import Frame
 from .lights import Lights
 from .materials import Materials
+from .media import Media
 from .placement import place
 
 FARTHEST = 1e12
@@ -46,6 +47,7 @@ class CompiledWorld:
 
     emitters    the patches that emit: the last ones of `lights`, made of the last ones of `triangles`
     background  (3, 1) float32 [W m^-2 sr^-1]
+    media       what is inside of bodies; None where nobody asks
     """
 
     frame: Frame
@@ -55,16 +57,18 @@ class CompiledWorld:
     lights: Lights
     emitters: Emitters
     background: np.ndarray
+    media: Media | None
     warnings: tuple
 
 
 # Corners may be anything; what is not finite after all is found by `_measure` and told.
 @np.errstate(over="ignore", invalid="ignore")
-def compile_world(scene, bsdfs, smooth, has_choice, samples_lights=True):
+def compile_world(scene, bsdfs, smooth, has_choice, samples_lights=True, has_media=False):
     """`scene` (validated) as a `CompiledWorld`.
 
     `bsdfs` are the lobes to make room for, `smooth` says that shading normals are wanted, `has_choice` that there may
-    be more than one light, `samples_lights` that shadow rays look for them. Raises SceneError where the geometry does not fit into memory.
+    be more than one light, `samples_lights` that shadow rays look for them, `has_media` that it
+    matters what is inside of bodies. Raises SceneError where the geometry does not fit into memory.
     """
     materials, row = _number_materials(scene)
     table = Materials.of(materials, bsdfs)
@@ -107,6 +111,7 @@ def compile_world(scene, bsdfs, smooth, has_choice, samples_lights=True):
         lights=Lights.of(scene.lights, emitters, frame, radius, has_choice, samples_lights),
         emitters=emitters,
         background=np.array(scene.world.radiance, np.float32)[:, None],
+        media=Media.of(scene.objects, row, material, owner[keep], frame.scale) if has_media else None,
         warnings=warnings,
     )
 

@@ -15,6 +15,7 @@ from glanz.engine import (
     Lambert,
     Lens,
     Material,
+    Medium,
     Mesh,
     Object,
     PerspectiveCamera,
@@ -39,6 +40,7 @@ def a_scene():
     )
     small = Mesh(name="small", vertices=np.float32([[0, 1, 0], [0, 0, 1], [0, 0, -0.0]]), triangles=[[0], [1], [2]])
     red = Material(name="röt", lobes=(Lambert((0.7, 0.1, 1 / 3)), Phong((0.1, 0.1, 0.1), exponent=np.float32(12.3))))
+    red = dataclasses.replace(red, medium=Medium(absorption=(1 / 3, 0, float("inf")), priority=-2))
     lamp = Material(name="lamp", emission=(1e-300, 5, 7))
     matrix = rng.standard_normal((4, 4))
     return Scene(
