@@ -42,9 +42,7 @@ class BlinnPhong:
         return cls((0.0, 0.0, 0.0))
 
     def row(self):
-        n = self.exponent
-        factor = (n + 2) * (n + 4) / (8 * PI * (2 ** (-n / 2) + n))
-        return {"reflectance": self.reflectance, "exponent": n, "factor": factor}
+        return {"reflectance": self.reflectance, "exponent": self.exponent}
 
     def albedo(self):
         return self.reflectance
@@ -55,7 +53,7 @@ class BlinnPhong:
     @staticmethod
     def eval(k, n, wo, wi):
         h, _ = _half_vector(n, wo, wi)
-        return k.reflectance * (k.factor * cosine_power(n, h, k.exponent))
+        return k.reflectance * (factor(k.exponent) * cosine_power(n, h, k.exponent))
 
     @staticmethod
     def illuminate(k, n, wo, wi):
@@ -70,6 +68,11 @@ class BlinnPhong:
     def pdf(k, n, wo, wi):
         h, cos = _half_vector(n, wo, wi)
         return sample_lobe_pdf(n, h, k.exponent) / (4 * cos)
+
+
+def factor(exponent):
+    """(n + 2)(n + 4) / (8 pi (2^(-n/2) + n)), (N,): with it all is reflected at normal incidence."""
+    return (exponent + 2) * (exponent + 4) / (8 * PI * (np.exp2(-0.5 * exponent) + exponent))
 
 
 def _half_vector(n, wo, wi):
