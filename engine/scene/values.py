@@ -3,12 +3,14 @@
 World space is right-handed with z up, as Blender's. Nothing here knows how it will be rendered.
 """
 
-from dataclasses import dataclass, field
+import math
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from ..arrays import frozen
 from ..errors import SceneError
+from ..maths.normals import vertex_normals
 from .medium import Medium
 
 
@@ -62,6 +64,17 @@ class Mesh:
     def is_smooth(self):
         """Whether the mesh brings shading normals of its own."""
         return self.normal_indices.shape[1] > 0
+
+    def smoothed(self, angle=math.pi):
+        """This mesh with shading normals made from its triangles: at each vertex the sum of theirs, weighted by area.
+
+        Edges at which triangles meet at more than `angle` [rad] stay sharp: vertices on them have several normals.
+        Raises SceneError for an angle that is not from 0 to pi.
+        """
+        if not 0 <= angle <= math.pi:
+            raise SceneError(f"mesh '{self.name}': the angle of smoothing is {angle}, allowed: 0 to pi")
+        normals, indices = vertex_normals(self.vertices, self.triangles, angle)
+        return replace(self, normals=normals, normal_indices=indices)
 
 
 @dataclass(frozen=True, kw_only=True)
