@@ -113,3 +113,10 @@ def test_seen_straight_it_is_as_wide_as_phong_of_a_quarter_of_the_exponent():
     for theta in (0.01, 0.03, 0.05):
         lobe = BlinnPhong.eval(k, Z, h.at_angle(0.0), h.at_angle(theta))[0, 0] / blinn_phong.factor(4_000.0)
         assert lobe == pytest.approx(np.cos(theta) ** 1_000, rel=1e-2)
+
+
+def test_in_the_illumination_model_it_is_a_power_of_the_cosine_to_the_half_vector():
+    """k_s (n . h)^n (Blinn 1977), without any factor."""
+    k, wo, wi = h.table(BlinnPhong((0.5, 0.3, 0.1), 7.0).row()), h.at_angle(0.3), h.at_angle(0.8, 2.0)
+    half = (wo + wi) / np.linalg.norm(wo + wi)
+    assert BlinnPhong.illuminate(k, Z, wo, wi)[:, 0] == pytest.approx(np.array((0.5, 0.3, 0.1)) * half[2, 0] ** 7, rel=1e-12)

@@ -64,6 +64,8 @@ def test_a_highlight_is_that_of_the_illumination_model():
     truth = 12 / (2 * np.pi) * np.maximum(dot(mirror, wi), 0) ** 10
     f = value.eval(h.table(value.row()), Z, wo, wi)
     np.testing.assert_allclose(f * wi[2], np.array([[0.5], [0.3], [0.1]]) * truth, rtol=1e-9, atol=1e-12)
+    term = value.illuminate(h.table(value.row()), Z, wo, wi)
+    np.testing.assert_allclose(f * wi[2], term * 12 / (2 * np.pi), rtol=1e-9, atol=1e-12)
 
 
 def test_it_really_is_not_reciprocal():
