@@ -26,7 +26,7 @@ from .lights.sun import SunLight
 from .registry import FILTERS, INTEGRATORS, PASSES, SAMPLERS
 from .rendering import Image, Progress, Tile, metadata, render, render_image
 from .requirements import Requirements
-from .scene import Lens, Material, Medium, Mesh, Object, Scene, Settings, World
+from .scene import EnvironmentMap, Lens, Material, Medium, Mesh, Object, Scene, Settings, World
 
 __version__ = VERSION
 
@@ -39,6 +39,7 @@ __all__ = [
     "BlinnPhong",
     "CosineSpotLight",
     "Dielectric",
+    "EnvironmentMap",
     "FileError",
     "GlanzError",
     "Image",

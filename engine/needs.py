@@ -9,6 +9,7 @@ EMISSIVE_MESHES = "emissive meshes"
 LIGHT_CHOICE = "light choice"
 LIGHT_HITS = "light hits"
 BACKGROUND = "background"
+ENVIRONMENT = "environment"
 LENS = "lens"
 CLIP_RANGE = "clip range"
 ADAPTIVE = "adaptive supersampling"
@@ -21,7 +22,8 @@ MEANING = {
     EMISSIVE_MESHES: "meshes that emit, sampled by shadow rays and met by scattered ones",
     LIGHT_CHOICE: "more than one light to choose from",
     LIGHT_HITS: "light objects with a size, met by rays",
-    BACKGROUND: "light from the world",
+    BACKGROUND: "light from the world, the same from everywhere",
+    ENVIRONMENT: "a picture around the scene, sampled by shadow rays and met by rays that escape",
     LENS: "a camera with an aperture, out of focus at other distances than one",
     CLIP_RANGE: "a camera that does not see what is too near or too far",
     ADAPTIVE: "pixels that are divided where colours differ",

@@ -11,7 +11,7 @@ from .wavefront.adaptive import AdaptiveTile
 from .wavefront.camera_rays import bladed_aperture, round_aperture, through_the_lens, through_the_pinhole
 from .wavefront.clip import clip_row, meet_in_range, start_in_range
 from .wavefront.emission import add_emission
-from .wavefront.escape import add_background, add_light_hits
+from .wavefront.escape import add_background, add_environment, add_light_hits
 from .wavefront.numbers import Numbers, one_of_the_lobes, only_lobe
 from .wavefront.tiles import EvenTile
 from .wavefront.visibility import closest, interact_at_rest, meet_nearest, occluded, unblocked
@@ -78,12 +78,13 @@ class Plan:
         integrator = INTEGRATORS[settings.integrator]
         absorbs, is_nested = needs.ABSORPTION in requirements, needs.NESTED_MEDIA in requirements
         has_media = absorbs or is_nested
-        world = compile_world(scene, bsdfs, smooth, needs.LIGHT_CHOICE in requirements, integrator.samples_lights, has_media)
+        has_choice, has_environment = needs.LIGHT_CHOICE in requirements, needs.ENVIRONMENT in requirements
+        world = compile_world(scene, bsdfs, smooth, has_choice, integrator.samples_lights, has_media, has_environment)
         can_reflect = bool(world.materials.lobes)
         on_rays = (
             *((media.add_light_hits_in_media if absorbs else add_light_hits,) if needs.LIGHT_HITS in requirements else ()),
             *((media.absorb,) if absorbs else ()),
-            *((add_background,) if needs.BACKGROUND in requirements else ()),
+            *((add_environment,) if world.lights.environment else (add_background,) if needs.BACKGROUND in requirements else ()),
             *((add_emission,) if needs.EMISSIVE_MESHES in requirements and world.emitters.count else ()),
         )
         can_sample = integrator.samples_lights and world.materials.rough_lobes and not world.lights.is_empty

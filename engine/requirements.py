@@ -61,12 +61,16 @@ class Requirements:
             ask(needs.of_plugin("light", type(light)), light.name)
             if light.has_extent():
                 ask(needs.LIGHT_HITS, light.name)
+        world = scene.world
+        if any(world.radiance):
+            ask(needs.BACKGROUND, world.name)
+        if world.environment is not None and world.environment.gives_light:
+            ask(needs.ENVIRONMENT, world.name)
         emitters = tuple(found.get(needs.EMISSIVE_MESHES, ()))
-        if len(shining) > 1 or emitters:
-            for name in (*(light.name for light in shining), *emitters):
+        sources = (*(light.name for light in shining), *found.get(needs.ENVIRONMENT, ()), *emitters)
+        if len(sources) > 1 or emitters:
+            for name in sources:
                 ask(needs.LIGHT_CHOICE, name)
-        if any(scene.world.radiance):
-            ask(needs.BACKGROUND, scene.world.name)
         return cls({need: tuple(names) for need, names in found.items()})
 
     @classmethod

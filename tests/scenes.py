@@ -4,16 +4,17 @@ import math
 
 import numpy as np
 
-from glanz.engine import AreaLight, Lambert, Material, PerspectiveCamera, Phong, PointLight, SpotLight, SunLight
+from glanz.engine import AreaLight, EnvironmentMap, Lambert, Material, PerspectiveCamera, Phong, PointLight, SpotLight, SunLight, World
 from glanz.tests import helpers as h
 
 SHINY = Material(name="shiny", lobes=(Lambert((0.2, 0.3, 0.1)), Phong((0.5, 0.4, 0.6), 20.0)))
 SHARP = Material(name="sharp", lobes=(Phong((0.7, 0.7, 0.7), 1e4),))
 GLOWING = Material(name="glowing", lobes=(Lambert((0.3, 0.3, 0.3)),), emission=(2.0, 1.0, 0.5))
+SKY = (np.random.default_rng(1).random((3, 8, 16)) ** 8).astype(np.float32)
 
 
 def everything(scale=1.0, offset=(0.0, 0.0, 0.0), power=1.0, world=0.1):
-    """A floor, a smooth and a flat sphere, a box, something that glows, one light of each kind, light from the world.
+    """A floor, a smooth and a flat sphere, a box, something that glows, one light of each kind, light and a picture around it all.
 
     All coordinates are multiples of 2^-10, so `offset` by such and `scale` by a power of two are exact; powers that
     belong to lengths (intensities) grow with scale^2, so that the picture stays.
@@ -43,7 +44,8 @@ def everything(scale=1.0, offset=(0.0, 0.0, 0.0), power=1.0, world=0.1):
         AreaLight(name="area", world_from_light=h.affine(scale * down, at(-1, 1.5, 3)), size_x=1.5, size_y=0.5, radiance=(3 * power,) * 3),
     ]
     camera = PerspectiveCamera.look_at(at(3, -4, 2.5), at(0, 0, 0.5), fov=math.radians(35))
-    return h.scene(objects, lights, camera, world * power)
+    sky = EnvironmentMap(pixels=SKY, world_from_map=h.rotation(1), strength=(0.5 * power,) * 3)
+    return h.replaced(h.scene(objects, lights, camera), world=World(radiance=(world * power,) * 3, environment=sky))
 
 
 def replaced_emission(power):

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..errors import FileError, GlanzError
 from ..registry import BSDFS, CAMERAS, LIGHTS
-from ..scene import Lens, Material, Medium, Mesh, Object, Scene, Settings, World
+from ..scene import EnvironmentMap, Lens, Material, Medium, Mesh, Object, Scene, Settings, World
 
 SHARED = (Mesh, Material)
 """Values that many others may hold; they are stored once and are the same value again after reading."""
@@ -15,13 +15,14 @@ PARTS = {
     Scene: {"camera": CAMERAS, "objects": [Object], "lights": [LIGHTS], "world": World},
     Object: {"mesh": Mesh, "materials": [Material]},
     Material: {"lobes": [BSDFS], "medium": Medium},
+    World: {"environment": EnvironmentMap},
 }
 """Which fields hold other values, and of which type; in a list: any number of them."""
 
 
 def types():
     """{name in the file: type} of all that may stand in a file; plug-ins are named `light/point` by their keys."""
-    plain = {cls.__name__: cls for cls in (Scene, World, Object, Mesh, Material, Medium, Lens, Settings)}
+    plain = {cls.__name__: cls for cls in (Scene, World, EnvironmentMap, Object, Mesh, Material, Medium, Lens, Settings)}
     plugins = {"bsdf": BSDFS, "light": LIGHTS, "camera": CAMERAS}
     return plain | {f"{kind}/{key}": cls for kind, registry in plugins.items() for key, cls in registry.items()}
 
@@ -141,8 +142,8 @@ def _check_field(cls, field, value):
 
 def _fits_type(part):
     allowed = tuple(part.values()) if isinstance(part, dict) else (part,)
-    # A scene may lack its camera, rendering says so; and a material its medium.
-    return lambda value: type(value) in allowed or (part in (CAMERAS, Medium) and value is None)
+    # A scene may lack its camera, rendering says so; a material its medium; and a world its picture.
+    return lambda value: type(value) in allowed or (part in (CAMERAS, Medium, EnvironmentMap) and value is None)
 
 
 def _is_alike(default, value):

@@ -7,17 +7,18 @@ _SMALLEST = 2.0**-22
 
 
 def cumulative(weights):
-    """Cumulative distribution (M,) float64 of non-negative finite weights with a positive sum; it ends in exactly 1.
+    """Cumulative distribution (..., M) float64 of non-negative finite weights with a positive sum; it ends in exactly 1.
 
     Its steps are multiples of 2^-24, as uniform float32 numbers are, so that `probabilities` are exact; what has a
     weight at all has a probability of at least _SMALLEST, or it would be lost instead of being noisy.
     """
     weights = np.asarray(weights, np.float64)
-    share = weights / weights.max()
-    share = np.where(weights > 0, np.maximum(share / share.sum(), _SMALLEST), 0)
-    cdf = np.ceil(np.cumsum(share / share.sum()) * 2.0**24) * 2.0**-24
+    share = weights / weights.max(axis=-1, keepdims=True)
+    share = np.where(weights > 0, np.maximum(share / share.sum(axis=-1, keepdims=True), _SMALLEST), 0)
+    cdf = np.ceil(np.cumsum(share / share.sum(axis=-1, keepdims=True), axis=-1) * 2.0**24) * 2.0**-24
     # Trailing weights of 0 must share the final 1, or rounding could choose them.
-    cdf[np.nonzero(weights)[0][-1] :] = 1.0
+    trailing = np.argmax(weights[..., ::-1] > 0, axis=-1)
+    cdf[np.arange(weights.shape[-1]) >= weights.shape[-1] - 1 - trailing[..., None]] = 1.0
     return cdf
 
 

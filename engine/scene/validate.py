@@ -5,8 +5,10 @@ import math
 
 import numpy as np
 
+from ..constants import EPS32
 from ..errors import SceneError
 from ..registry import BSDFS, CAMERAS, FILTERS, INTEGRATORS, LIGHTS, PASSES, SAMPLERS
+from .environment import EnvironmentMap
 from .medium import Medium
 
 
@@ -30,9 +32,8 @@ def validate(scene, settings):
     if not INTEGRATORS[settings.integrator].samples_lights:
         unseen = [light.name for light in kept_lights if not light.has_extent()]
         warnings += [f"light '{name}' stays dark: it has no size, and '{settings.integrator}' sends no rays to lights" for name in unseen]
-    if not _is_colour(scene.world.radiance):
-        raise SceneError(f"world '{scene.world.name}': radiance is {scene.world.radiance}, allowed: three finite numbers from 0 on")
-    return dataclasses.replace(scene, objects=objects, lights=kept_lights), tuple(warnings)
+    world = _check_world(scene.world, warnings)
+    return dataclasses.replace(scene, objects=objects, lights=kept_lights, world=world), tuple(warnings)
 
 
 def _check_camera(scene):
@@ -97,6 +98,29 @@ def _check_light(light, warnings):
         warnings.append(f"light '{light.name}' is left out: it would take light away")
         return False
     return True
+
+
+def _check_world(world, warnings):
+    environment = world.environment
+    if environment is not None and type(environment) is not EnvironmentMap:
+        raise SceneError(f"world '{world.name}': {type(environment).__name__} is not an EnvironmentMap")
+    colours = {"radiance": world.radiance} | ({"strength of the environment": environment.strength} if environment else {})
+    for name, colour in colours.items():
+        if not _is_colour(colour):
+            raise SceneError(f"world '{world.name}': {name} is {colour}, allowed: three finite numbers from 0 on")
+    if environment is None:
+        return world
+    matrix = environment.world_from_map
+    # As far as float32 can hold a rotation. (Not "> ...": NaN is refused too.)
+    if not (np.abs(matrix.T @ matrix - np.eye(3)) < 64 * EPS32).all():
+        raise SceneError(f"world '{world.name}': its environment is turned by {matrix.tolist()}, allowed: orthogonal matrices")
+    pixels = environment.pixels
+    if 0 <= pixels.min() <= pixels.max() < math.inf:
+        return world
+    bad = ~((pixels >= 0) & (pixels < math.inf))
+    count = np.count_nonzero(bad.any(axis=0))
+    warnings.append(f"world '{world.name}': {count} pixels of its picture are not finite or below 0 and count as black")
+    return dataclasses.replace(world, environment=dataclasses.replace(environment, pixels=np.where(bad, np.float32(0), pixels)))
 
 
 def _is_colour(values):

@@ -119,10 +119,15 @@ class Object:
 
 @dataclass(frozen=True, kw_only=True)
 class World:
-    """What surrounds the scene: `radiance` from every direction [W m^-2 sr^-1]."""
+    """What surrounds the scene.
+
+    radiance     from every direction [W m^-2 sr^-1], linear Rec. 709
+    environment  an `EnvironmentMap` that adds to it, or None
+    """
 
     name: str = "World"
     radiance: tuple = (0.0, 0.0, 0.0)
+    environment: object = None
 
     def __post_init__(self):
         object.__setattr__(self, "radiance", tuple(float(c) for c in self.radiance))

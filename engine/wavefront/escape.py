@@ -11,6 +11,22 @@ def add_background(plan, rays, hits, film):
     film.add(rays.slot.take(lanes), rays.beta.take(lanes, axis=1) * plan.world.background)
 
 
+def add_environment(plan, rays, hits, film):
+    """Rays that met nothing see the picture around the scene, weighted against the shadow ray that could have found it."""
+    lanes = np.nonzero(hits.prim < 0)[0]
+    if not lanes.size:
+        return
+    lights, d = plan.world.lights, rays.d.take(lanes, axis=1)
+    if rays.depth:
+        L, pdf = lights.environment.hit(d)
+        chosen = lights.choice.probability(np.full(lanes.size, lights.first_patch - 1), rays.o.take(lanes, axis=1))
+        L *= power_heuristic(rays.pdf.take(lanes), pdf * chosen)
+    else:
+        L = lights.environment.radiance(d)
+    L *= rays.beta.take(lanes, axis=1)
+    film.add(rays.slot.take(lanes), L)
+
+
 def add_light_hits(plan, rays, hits, film):
     """Light objects nearer than the geometry; they do not hide what is behind them."""
     for lanes, _, L in light_hits(plan, rays, hits):

@@ -9,6 +9,7 @@ from ..maths.vectors import cross, dot, length
 from ..scene.values import Material
 from .accel import Accel
 from .emitters import Emitters
+from .environment import Environment
 from .frame import Frame
 from .lights import Lights
 from .materials import Materials
@@ -63,12 +64,13 @@ class CompiledWorld:
 
 # Corners may be anything; what is not finite after all is found by `_measure` and told.
 @np.errstate(over="ignore", invalid="ignore")
-def compile_world(scene, bsdfs, smooth, has_choice, samples_lights=True, has_media=False):
+def compile_world(scene, bsdfs, smooth, has_choice, samples_lights=True, has_media=False, has_environment=False):
     """`scene` (validated) as a `CompiledWorld`.
 
     `bsdfs` are the lobes to make room for, `smooth` says that shading normals are wanted, `has_choice` that there may
-    be more than one light, `samples_lights` that shadow rays look for them, `has_media` that it
-    matters what is inside of bodies. Raises SceneError where the geometry does not fit into memory.
+    be more than one light, `samples_lights` that shadow rays look for them, `has_media` that it matters what is inside of
+    bodies, `has_environment` that the world has a picture that gives light. Raises SceneError where the geometry does not
+    fit into memory.
     """
     materials, row = _number_materials(scene)
     table = Materials.of(materials, bsdfs)
@@ -103,12 +105,15 @@ def compile_world(scene, bsdfs, smooth, has_choice, samples_lights=True, has_med
     emitters = Emitters.of(
         vertices, indices[:, last], normal[:, last], table.emission.take(material[last], axis=1), owner[keep][last]
     )
+    # Asked for with every feature there is, it may still be missing or black.
+    shines = has_environment and scene.world.environment is not None and scene.world.environment.gives_light
+    environment = Environment.of(scene.world) if shines else None
     return CompiledWorld(
         frame=frame,
         accel=accel,
         triangles=triangles,
         materials=table,
-        lights=Lights.of(scene.lights, emitters, frame, radius, has_choice, samples_lights),
+        lights=Lights.of(scene.lights, environment, emitters, frame, radius, has_choice, samples_lights),
         emitters=emitters,
         background=np.array(scene.world.radiance, np.float32)[:, None],
         media=Media.of(scene.objects, row, material, owner[keep], frame.scale) if has_media else None,

@@ -8,6 +8,7 @@ from ..arrays import Columns, columns
 from ..constants import LUMINANCE
 from ..lights.parallelogram import ParallelogramLight
 from ..lights.triangle import TriangleLight
+from .environment import Environment
 from .light_choice import MOST_CLUSTERS, ByPlace, ByPower, OnlyLight
 
 MAX_HITTABLE = 16
@@ -56,7 +57,8 @@ class Hittable:
 class Lights:
     """Every light of a world.
 
-    groups       one `Group` per kind, emissive patches last
+    groups       one `Group` per kind, the environment after the lamps, emissive patches last
+    environment  the `Environment`, the light before the first patch; or None
     first_patch  the index of the first emissive patch
     choice       how one of them is chosen, see `light_choice`
     visible      the `Hittable` lights that camera rays see
@@ -64,14 +66,15 @@ class Lights:
     """
 
     groups: tuple
+    environment: object
     first_patch: int
     choice: object
     visible: tuple
     hittable: tuple
 
     @classmethod
-    def of(cls, lamps, emitters, frame, radius, has_choice=True, are_sampled=True):
-        """From light values `lamps` and the `Emitters`; `radius` [m] is the scene's, for suns.
+    def of(cls, lamps, environment, emitters, frame, radius, has_choice=True, are_sampled=True):
+        """From light values `lamps`, an `Environment` or None, and `Emitters`; `radius` [m] is the scene's, for what is distant.
 
         `has_choice` says that there may be more than one light, `are_sampled` that shadow rays look for them.
         """
@@ -84,17 +87,21 @@ class Lights:
         for kind in kinds:
             rows = [lamp.row(frame) for lamp in lamps if type(lamp) is kind]
             groups.append(Group(kind, columns(rows), sum(g.count for g in groups), len(rows), are_met))
+        if environment:
+            groups.append(Group(Environment, environment, len(lamps), 1))
+        first_patch = sum(group.count for group in groups)
         split = emitters.parallelograms
         for kind, patches in ((ParallelogramLight, slice(0, split)), (TriangleLight, slice(split, emitters.count))):
             if patches.stop > patches.start:
-                groups.append(Group(kind, emitters.k.part(patches), len(lamps) + patches.start, patches.stop - patches.start))
+                groups.append(Group(kind, emitters.k.part(patches), first_patch + patches.start, patches.stop - patches.start))
         if not groups:
-            return cls((), 0, OnlyLight(), (), ())
+            return cls((), None, 0, OnlyLight(), (), ())
         hittable = tuple(_hittable(lamps, groups))
         return cls(
             tuple(groups),
-            len(lamps),
-            _choice(lamps, emitters, frame, radius) if has_choice else OnlyLight(),
+            environment,
+            first_patch,
+            _choice([*lamps, environment] if environment else lamps, emitters, frame, radius) if has_choice else OnlyLight(),
             tuple(lamp for lamp in hittable if lamp.is_visible),
             hittable if are_met else (),
         )

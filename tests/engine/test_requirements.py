@@ -8,6 +8,7 @@ import pytest
 from glanz.engine import (
     AreaLight,
     Dielectric,
+    EnvironmentMap,
     Lambert,
     Lens,
     Material,
@@ -19,6 +20,7 @@ from glanz.engine import (
     PointLight,
     Requirements,
     SunLight,
+    World,
     needs,
 )
 from glanz.engine.plan import Plan
@@ -42,7 +44,7 @@ WINE = Material(name="wine", lobes=(Dielectric(1.3),), medium=Medium(absorption=
 STRONG = Material(name="strong", lobes=(Dielectric(1.7),), medium=Medium(priority=3))
 LEFT, RIGHT = (h.box((x, -0.5, 0), (x + 0.9, 0.5, 1), name=name) for x, name in ((-1, "left"), (0, "right")))
 INNER = h.box((-0.9, -0.4, 0.1), (-0.2, 0.3, 0.8), name="inner")
-
+SKY = World(name="Sky", environment=EnvironmentMap(pixels=np.ones((3, 2, 4))))
 EYE = PerspectiveCamera.look_at((3, -4, 2), (0, 0, 0), name="Eye")
 OPEN = Lens(radius=0.1, focus_distance=5.0)
 
@@ -67,6 +69,12 @@ TABLE = {
     ),
     "lamp": (h.scene([LAMP]), {"geometry": ["lamp"], "emissive meshes": ["lamp"], "light choice": ["lamp"]}),
     "world": (h.scene([MATTE], world=0.5), {"geometry": ["chair"], "bsdf lambert": ["wood"], "background": ["World"]}),
+    "sky": (h.replaced(h.scene([MATTE]), world=SKY), {"geometry": ["chair"], "bsdf lambert": ["wood"], "environment": ["Sky"]}),
+    "sky and bulb": (
+        h.replaced(h.scene(lights=[BULB]), world=h.replaced(SKY, radiance=(1, 1, 1))),
+        {"light point": ["bulb"], "background": ["Sky"], "environment": ["Sky"], "light choice": ["bulb", "Sky"]},
+    ),
+    "black sky": (h.replaced(h.scene(), world=World(environment=EnvironmentMap(pixels=np.zeros((3, 2, 4))))), {}),
     "dark light": (h.scene(lights=[h.replaced(BULB, intensity=(0.0,) * 3)]), {}),
     "empty mesh": (h.scene([EMPTY]), {}),
     "black lobe": (h.scene([BLACK_LOBE]), {"geometry": ["box"], "bsdf phong": ["m"]}),

@@ -14,6 +14,7 @@ from glanz.engine import (
     FILTERS,
     SAMPLERS,
     AreaLight,
+    EnvironmentMap,
     GlanzError,
     Lambert,
     Material,
@@ -117,12 +118,22 @@ cameras = st.builds(
     st.sampled_from((0.0, 1e-6, 1.0, 4.0, 1e6)),
     st.sampled_from((1e-9, 0.3, 1.0, 100.0)),
 )
+environments = st.builds(
+    lambda shape, seed, power, **others: EnvironmentMap(
+        pixels=np.random.default_rng(seed).random((3, *shape)) ** power, world_from_map=h.rotation(seed), **others
+    ),
+    st.sampled_from(((1, 1), (1, 3), (4, 8))),
+    st.integers(0, 5),
+    st.sampled_from((1, 1000)),
+    strength=colours,
+    interpolation=st.sampled_from(("linear", "closest")),
+)
 scenes = st.builds(
     Scene,
     camera=cameras,
     objects=st.lists(objects, max_size=4),
     lights=st.lists(lights, max_size=3),
-    world=st.builds(World, radiance=st.one_of(st.just((0.0, 0.0, 0.0)), colours)),
+    world=st.builds(World, radiance=st.one_of(st.just((0.0, 0.0, 0.0)), colours), environment=st.one_of(st.none(), environments)),
 )
 ways = st.builds(
     Settings,

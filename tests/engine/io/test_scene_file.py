@@ -11,6 +11,7 @@ from hypothesis import HealthCheck, given, settings as hypothesis_settings, stra
 
 from glanz.engine import (
     AreaLight,
+    EnvironmentMap,
     FileError,
     Lambert,
     Lens,
@@ -60,7 +61,12 @@ def a_scene():
             SunLight(irradiance=np.array([1, 2, 3], np.float32)),
             AreaLight(size_x=1e-30, is_ellipse=True),
         ),
-        world=World(radiance=(0.1, 0.2, 0.3)),
+        world=World(
+            radiance=(0.1, 0.2, 0.3),
+            environment=EnvironmentMap(
+                name="sky", pixels=rng.random((3, 4, 8)), world_from_map=matrix[:3, :3], strength=(1, 2, 1 / 3), interpolation="closest"
+            ),
+        ),
     )
 
 
@@ -107,8 +113,8 @@ def test_what_is_shared_stays_shared(saved):
     assert a.mesh is b.mesh and c.mesh is d.mesh and a.mesh is not c.mesh
     assert a.materials[1] is b.materials[0]
     with zipfile.ZipFile(saved) as file:
-        # vertices, triangles, normals, normal_indices, material_indices of the one large mesh, and a matrix that is not finite
-        assert len(file.namelist()) == 6 + 1
+        # vertices, triangles, normals, normal_indices, material_indices of the one large mesh, a matrix that is not finite, a sky
+        assert len(file.namelist()) == 7 + 1
 
 
 def test_every_plug_in_with_its_defaults_comes_back(tmp_path):

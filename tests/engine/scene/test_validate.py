@@ -7,6 +7,7 @@ import pytest
 
 from glanz.engine import (
     AreaLight,
+    EnvironmentMap,
     Lambert,
     Material,
     Medium,
@@ -17,6 +18,7 @@ from glanz.engine import (
     Settings,
     SpotLight,
     SunLight,
+    World,
     render,
     render_image,
 )
@@ -24,6 +26,17 @@ from glanz.engine.scene.validate import validate
 from glanz.tests import helpers as h
 
 SETTINGS = h.settings(samples=1, max_depth=1)
+GREY = np.full((3, 2, 4), 0.5, np.float32)
+
+
+def under(pixels=GREY, **changes):
+    return h.replaced(h.scene(), world=World(name="Sky", environment=EnvironmentMap(pixels=pixels, **changes)))
+
+
+def holed(*values):
+    pixels = GREY.copy()
+    pixels[1, 0, : len(values)] = values
+    return pixels
 
 
 def wears(**material):
@@ -44,6 +57,11 @@ REFUSED = {
     "camera without a window": (h.scene(camera=PerspectiveCamera(name="Eye", window=(0, 0, 0, 0))), "camera 'Eye': window is"),
     "world below zero": (h.scene(world=-1.0), r"world 'World': radiance is \(-1.0, -1.0, -1.0\)"),
     "world of NaN": (h.scene(world=math.nan), "world 'World': radiance is"),
+    "something else as environment": (h.replaced(h.scene(), world=World(name="Sky", environment=7)), "world 'Sky': int is not an Env"),
+    "environment of negative strength": (under(strength=(1, -1, 1)), r"world 'Sky': strength of the environment is \(1.0, -1.0, 1.0\)"),
+    "environment of infinite strength": (under(strength=(1, math.inf, 1)), "world 'Sky': strength of the environment is"),
+    "environment that is stretched": (under(world_from_map=np.diag((1, 1, 2))), "world 'Sky': its environment is turned by"),
+    "environment that is turned by NaN": (under(world_from_map=np.full((3, 3), np.nan)), "world 'Sky': its environment is turned by"),
     "emission below zero": (wears(emission=(-1, 0, 0)), r"material 'wood': emission is \(-1.0, 0.0, 0.0\)"),
     "emission of inf": (wears(emission=(math.inf, 0, 0)), "material 'wood': emission is"),
     "reflectance of NaN": (wears(lobes=(Lambert((math.nan, 0, 0)),)), "material 'wood': lambert reflectance is"),
@@ -119,6 +137,37 @@ def test_what_can_be_left_out_is_and_the_rest_renders(name):
     clean = render_image(h.scene([floor], lit), SETTINGS)
     assert h.same_bits(image.passes["Combined"], clean.passes["Combined"])
     assert image.passes["Combined"][..., 0].max() > 0
+
+
+@pytest.mark.parametrize("values", [(math.nan,), (math.inf, -math.inf), (math.nan, -1.0, 3.0)], ids=str)
+def test_bad_pixels_of_an_environment_are_counted_and_black(values):
+    checked, warnings = validate(under(holed(*values)), SETTINGS)
+    bad = sum(not 0 <= value < math.inf for value in values)
+    assert warnings == (f"world 'Sky': {bad} pixels of its picture are not finite or below 0 and count as black",)
+    expected = holed(*(value if 0 <= value < math.inf else 0 for value in values))
+    assert h.same_bits(checked.world.environment.pixels, expected)
+    assert np.isfinite(render_image(under(holed(*values)), SETTINGS).passes["Combined"]).all()
+
+
+def test_an_environment_of_bad_pixels_alone_is_no_light():
+    image = render_image(under(np.full((3, 2, 2), np.nan)), SETTINGS)
+    assert "4 pixels" in image.warnings[0]
+    assert image.passes["Combined"][..., :3].max() == 0
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"pixels": np.zeros((2, 4, 3))}, r"environment 'Sky': pixels has shape \(2, 4, 3\)"),
+        ({"pixels": np.zeros((3, 0, 4))}, "environment 'Sky': its picture of 4 x 0 pixels is empty"),
+        ({"world_from_map": np.eye(4)}, r"environment 'Sky': world_from_map has shape \(4, 4\)"),
+        ({"interpolation": "cubic"}, "environment 'Sky': interpolation is 'cubic', allowed: linear, closest"),
+    ],
+    ids=lambda x: next(iter(x)) if isinstance(x, dict) else "",
+)
+def test_a_bad_environment_is_refused_by_name(changes, message):
+    with pytest.raises(SceneError, match=message):
+        EnvironmentMap(**{"name": "Sky", "pixels": GREY, **changes})
 
 
 def test_triangles_that_are_not_finite_are_counted():
