@@ -12,18 +12,32 @@ SHARPEST_EXPONENT = 1e6
 
 @dataclass(frozen=True, eq=False)
 class Closure:
-    """The sum of `lobes` (BSDF values) plus `emission` (3,) [W m^-2 sr^-1]; `is_clear` says that light goes straight through."""
+    """The sum of `lobes` (BSDF values) plus `emission` (3,) [W m^-2 sr^-1]; `is_clear` says that light goes straight through.
+
+    `environments` are `EnvironmentMap` values, which add to the emission of a world.
+    """
 
     lobes: tuple = ()
     emission: np.ndarray = field(default_factory=lambda: np.zeros(3))
     is_clear: bool = False
+    environments: tuple = ()
 
     def __add__(self, other):
-        return Closure(self.lobes + other.lobes, self.emission + other.emission, self.is_clear and other.is_clear)
+        return Closure(
+            self.lobes + other.lobes,
+            self.emission + other.emission,
+            self.is_clear and other.is_clear,
+            self.environments + other.environments,
+        )
 
     def scaled(self, factor):
         """Everything times `factor`, a number or (3,)."""
-        return replace(self, lobes=tuple(scaled_lobe(lobe, factor) for lobe in self.lobes), emission=self.emission * factor)
+        return replace(
+            self,
+            lobes=tuple(scaled_lobe(lobe, factor) for lobe in self.lobes),
+            emission=self.emission * factor,
+            environments=tuple(replace(e, strength=tuple(np.multiply(e.strength, factor))) for e in self.environments),
+        )
 
     def albedo(self):
         """Share of light reflected by all lobes together, (3,)."""

@@ -4,6 +4,7 @@ import numpy as np
 
 from . import closure
 from .closure import Closure
+from .environment import export_environment
 from .nodes import Reader, input_by_identifier
 from .principled import principled_lobes
 
@@ -62,6 +63,16 @@ def _glass(reader, node):
 
 def _emission(reader, node):
     return closure.emission(reader.colour(node, "Color"), reader.number(node, "Strength"))
+
+
+def _background(reader, node):
+    """Emission of a world, which may be a picture."""
+    behind, _, output = reader.source(input_by_identifier(node, "Color"))
+    if output is None or output.node.type != "TEX_ENVIRONMENT":
+        return _emission(reader, node)
+    if (behind := behind.beyond(output.node)) is None:
+        return Closure()
+    return Closure(environments=(export_environment(behind, output.node, reader.number(node, "Strength")),))
 
 
 def _transparent(reader, node):
@@ -123,7 +134,7 @@ _TABLE = {
     "BSDF_GLASS": _glass,
     "BSDF_TRANSPARENT": _transparent,
     "EMISSION": _emission,
-    "BACKGROUND": _emission,
+    "BACKGROUND": _background,
     "MIX_SHADER": _mix,
     "ADD_SHADER": _add,
 }

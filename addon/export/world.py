@@ -1,4 +1,6 @@
-"""Blender's world as the engine's: one radiance from every direction."""
+"""Blender's world as the engine's: an even radiance from every direction, and a picture."""
+
+from dataclasses import replace
 
 from ...engine import World
 from .material import clean_colour
@@ -20,4 +22,15 @@ def export_world(world, findings):
     if Reader(owner, findings).is_linked(output, "Volume"):
         findings.note("the volume is left out", owner)
     surface = surface_of(output, owner, findings)
-    return World(name=world.name, radiance=clean_colour(surface.emission, owner, findings))
+    radiance = clean_colour(surface.emission, owner, findings)
+    return World(name=world.name, radiance=radiance, environment=_environment(surface.environments, owner, findings))
+
+
+def _environment(environments, owner, findings):
+    """The one picture that the engine takes, or None."""
+    if not environments:
+        return None
+    if len(environments) > 1:
+        findings.note("of several Environment Textures only the first is rendered", owner)
+    first = environments[0]
+    return replace(first, strength=clean_colour(first.strength, owner, findings))

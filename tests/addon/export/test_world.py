@@ -1,9 +1,11 @@
-"""The world is one radiance; what is more than that is named."""
+"""The world is an even radiance and a picture; what is more than that is named."""
 
 import bpy
+import numpy as np
 import pytest
 
 from glanz.tests.addon import blender
+from glanz.tests.addon.sky import new_image, set_sky
 
 
 def test_background_is_colour_times_strength():
@@ -32,14 +34,117 @@ def test_no_output_is_black_and_named():
     assert "world 'World'" in warnings[0]
 
 
-def test_pictures_of_the_sky_are_named_and_replaced_by_the_nodes_own_colour():
+def picture(seed=1):
+    return np.random.default_rng(seed).random((4, 8, 3)).astype(np.float32)
+
+
+def test_a_picture_of_the_sky_is_the_environment():
+    set_sky(new_image(picture()), strength=3.0, interpolation="Closest")
+    scene, warnings = blender.export()
+    world = scene.world
+    assert warnings == ()
+    assert world.radiance == (0, 0, 0)
+    assert world.environment.name == "Sky"
+    assert world.environment.strength == (3, 3, 3)
+    assert world.environment.interpolation == "closest"
+    assert (world.environment.pixels == np.moveaxis(picture(), 2, 0)).all()
+    assert (world.environment.world_from_map == np.eye(3)).all()
+
+
+def test_bytes_are_decoded_and_multiplied_by_alpha():
+    """sRGB 0.5 (128 of 255) is 0.2159 linear; of half alpha only half counts, unless alpha means something else."""
+    for mode, factor in (("STRAIGHT", 128 / 255), ("CHANNEL_PACKED", 1), ("NONE", 1)):
+        image = new_image(np.full((2, 4, 3), 128 / 255), is_float=False, alpha=128 / 255)
+        image.alpha_mode = mode
+        set_sky(image)
+        np.testing.assert_allclose(blender.export()[0].world.environment.pixels, 0.215861 * factor, rtol=1e-5)
+
+
+def test_one_picture_is_loaded_as_it_is_saved(tmp_path):
+    """From a file on disk, which nobody has looked at yet."""
+    image = new_image(picture())
+    image.file_format, image.filepath_raw = "OPEN_EXR", str(tmp_path / "sky.exr")
+    image.save()
+    set_sky(bpy.data.images.load(str(tmp_path / "sky.exr")))
+    np.testing.assert_allclose(blender.export()[0].world.environment.pixels, np.moveaxis(picture(), 2, 0), rtol=1e-3)
+
+
+def link_shader(kind, *shaders):
+    """The world's output shows a node `kind` over `shaders`."""
+    tree = bpy.context.scene.world.node_tree
+    node = tree.nodes.new(kind)
+    free = [socket for socket in node.inputs if socket.type == "SHADER"]
+    for socket, shader in zip(free, shaders):
+        tree.links.new(shader.outputs[0], socket)
+    tree.links.new(node.outputs[0], next(n for n in tree.nodes if n.type == "OUTPUT_WORLD").inputs["Surface"])
+    return node
+
+
+def test_pictures_and_colours_mix_and_add():
+    texture = set_sky(new_image(picture()), strength=2.0)
+    tree = texture.id_data
+    first = next(node for node in tree.nodes if node.type == "BACKGROUND")
+    second = blender.add_node(tree, "ShaderNodeBackground", Color=(0.1, 0.2, 0.4, 1), Strength=5)
+    mix = link_shader("ShaderNodeMixShader", first, second)
+    blender.node_input(mix, "Fac").default_value = 0.25
+    world = blender.export()[0].world
+    assert world.environment.strength == pytest.approx((1.5,) * 3)
+    assert world.radiance == pytest.approx((0.125, 0.25, 0.5))
+    link_shader("ShaderNodeAddShader", first, second)
+    world = blender.export()[0].world
+    assert world.environment.strength == (2, 2, 2)
+    assert world.radiance == pytest.approx((0.5, 1, 2))
+    link_shader("ShaderNodeAddShader", first, first)
+    assert "only the first is rendered: world 'World'" in blender.export()[1][0]
+
+
+@pytest.mark.parametrize(
+    ("kind", "inputs", "words"),
+    [
+        ("POINT", {"Location": (0, 1, 0)}, "Location of Mapping is left out"),
+        ("TEXTURE", {"Scale": (1, 2, 1)}, "Scale of Mapping is left out"),
+        ("VECTOR", {"Scale": (1, 0, 1)}, "Scale of Mapping is left out"),
+    ],
+)
+def test_what_a_mapping_cannot_do_is_named_and_its_rotation_stays(kind, inputs, words):
+    set_sky(new_image(picture()), vector_type=kind, Rotation=(0, 0, 0.5), **inputs)
+    scene, warnings = blender.export()
+    assert words in warnings[0]
+    assert "world 'World'" in warnings[0]
+    c, s = np.cos(0.5), np.sin(0.5) * (-1 if kind == "TEXTURE" else 1)
+    np.testing.assert_allclose(scene.world.environment.world_from_map, ((c, s, 0), (-s, c, 0), (0, 0, 1)), atol=1e-6)
+
+
+def test_what_an_environment_texture_cannot_do_is_named():
+    texture = set_sky(new_image(picture()), interpolation="Cubic")
+    tree = texture.id_data
+    tree.links.new(tree.nodes.new("ShaderNodeTexCoord").outputs["Camera"], texture.inputs["Vector"])
+    texts = "\n".join(blender.export()[1])
+    assert "interpolation Cubic of Environment Texture is rendered as Linear: world 'World'" in texts
+    assert "coordinates Camera of the environment are rendered as Generated" in texts
+    tree.links.new(tree.nodes.new("ShaderNodeCombineXYZ").outputs[0], texture.inputs["Vector"])
+    assert "Combine XYZ before the environment's picture is left out" in "\n".join(blender.export()[1])
+
+
+def test_a_missing_picture_is_magenta_and_named():
+    set_sky(None)
+    scene, warnings = blender.export()
+    assert scene.world.environment.pixels.ravel().tolist() == [1, 0, 1]
+    assert warnings == ("the image is missing and is rendered magenta: world 'World'",)
+    image = bpy.data.images.new("lost", 4, 4)
+    image.source, image.filepath = "FILE", "//nowhere.exr"
+    set_sky(image)
+    assert blender.export()[1] == ("the image 'lost' is missing and is rendered magenta: world 'World.001'",)
+
+
+def test_other_textures_are_named_and_replaced_by_the_nodes_own_colour():
     world = blender.set_world((0.3, 0.3, 0.3))
     tree = world.node_tree
     background = next(node for node in tree.nodes if node.type == "BACKGROUND")
-    tree.links.new(tree.nodes.new("ShaderNodeTexEnvironment").outputs["Color"], background.inputs["Color"])
+    tree.links.new(tree.nodes.new("ShaderNodeTexSky").outputs["Color"], background.inputs["Color"])
     scene, warnings = blender.export()
     assert scene.world.radiance == pytest.approx((0.3, 0.3, 0.3))
-    assert "Environment Texture" in warnings[0]
+    assert "Sky Texture" in warnings[0]
     assert "world 'World'" in warnings[0]
 
 
