@@ -128,7 +128,8 @@ class Light(Protocol):
 class Camera(Protocol):
     """Where paths begin; render space is centred on its `position` (3,) [m].
 
-    Every camera value has fields `name`, `world_from_camera` (4, 4), `clip_start` and `clip_end` [m], and a `lens`.
+    Every camera value has fields `name`, `world_from_camera` (4, 4), `clip_start` and `clip_end` [m], a `lens`, and `motion`
+    (K, 4, 4), see `scene.motion`; what it says of itself is how it is at the middle of the shutter.
     Film positions x, y (N,) [px] are measured from the middle of the frame, y down.
     """
 
@@ -199,7 +200,7 @@ class Filter(Protocol):
 class Pass(Protocol):
     """One result of a render: as many channels as `channels` has letters.
 
-    at_first_hit  `values(plan, surface)` (C, M) is recorded where camera rays hit; elsewhere it is `background`
+    at_first_hit  `values(plan, rays, surface)` (C, M) is recorded where camera rays hit; elsewhere it is `background`
     reduction     what a pixel is of its samples: their "mean", the "first" of them, or their "sum"
     """
 

@@ -15,6 +15,8 @@ CLIP_RANGE = "clip range"
 ADAPTIVE = "adaptive supersampling"
 ABSORPTION = "absorption"
 NESTED_MEDIA = "nested media"
+CAMERA_MOTION = "camera motion"
+OBJECT_MOTION = "object motion"
 
 MEANING = {
     GEOMETRY: "triangles to intersect",
@@ -29,6 +31,8 @@ MEANING = {
     ADAPTIVE: "pixels that are divided where colours differ",
     ABSORPTION: "media that weaken light on its way through",
     NESTED_MEDIA: "bodies that let light in and may share space, so that boundaries are between two media",
+    CAMERA_MOTION: "a camera that moves while the shutter is open",
+    OBJECT_MOTION: "objects that move or deform while the shutter is open, met at each path's own time",
 }
 
 

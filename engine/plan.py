@@ -12,11 +12,23 @@ from .wavefront.camera_rays import bladed_aperture, round_aperture, through_the_
 from .wavefront.clip import clip_row, meet_in_range, start_in_range
 from .wavefront.emission import add_emission
 from .wavefront.escape import add_background, add_environment, add_light_hits
+from .wavefront.motion import (
+    TIME,
+    add_moving_emission,
+    closest_at_time,
+    follow_camera,
+    interact_at_time,
+    meet_in_moving_range,
+    occluded_at_time,
+    seen_from_camera,
+    start_time,
+)
 from .wavefront.numbers import Numbers, one_of_the_lobes, only_lobe
 from .wavefront.tiles import EvenTile
-from .wavefront.visibility import closest, interact_at_rest, meet_nearest, occluded, unblocked
+from .wavefront.visibility import closest, interact_at_rest, meet_nearest, occluded, seen_at_rest, unblocked
 from .world.compile import CompiledWorld, compile_world
 from .world.interaction import flat_normals, leave_in_front, leave_on_either_side, smooth_normals
+from .world.poses import Path, Poses
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -25,10 +37,12 @@ class Plan:
 
     carry              what paths carry along: (name, first column (plan, rays)) of each
     aim                origins and directions (plan, rays, x, y) of camera rays
+    camera_poses       where the camera is over the time that the shutter is open, see `world.poses`; None: it stands still
     on_camera_rays     stages (plan, rays) before camera rays are traced
     closest, occluded  what lies along rays (plan, carried, o, d, limit), see `wavefront.visibility`
     meet               the hits (plan, rays) of a batch
     unblocked          the shadow rays (plan, rays, o, d, limit, candidate) that arrive
+    seen_from_camera   points (plan, rays, p) of render space as `camera` and `camera_k` describe them
     on_rays            stages (plan, rays, hits, film) for every batch: light met along the way
     interact           the surface (plan, rays, hits) that a batch met
     adjust_surface     stages (plan, rays, surface) -> surface: what changes its normals
@@ -47,6 +61,7 @@ class Plan:
     filter: type
     camera: type
     camera_k: Columns
+    camera_poses: object
     carry: tuple
     aim: object
     aperture: object
@@ -55,6 +70,7 @@ class Plan:
     occluded: object
     meet: object
     unblocked: object
+    seen_from_camera: object
     on_rays: tuple
     interact: object
     adjust_surface: tuple
@@ -79,16 +95,20 @@ class Plan:
         absorbs, is_nested = needs.ABSORPTION in requirements, needs.NESTED_MEDIA in requirements
         has_media = absorbs or is_nested
         has_choice, has_environment = needs.LIGHT_CHOICE in requirements, needs.ENVIRONMENT in requirements
-        world = compile_world(scene, bsdfs, smooth, has_choice, integrator.samples_lights, has_media, has_environment)
+        steps = settings.motion_steps if needs.OBJECT_MOTION in requirements else 0
+        world = compile_world(scene, bsdfs, smooth, has_choice, integrator.samples_lights, has_media, has_environment, steps)
         can_reflect = bool(world.materials.lobes)
         on_rays = (
             *((media.add_light_hits_in_media if absorbs else add_light_hits,) if needs.LIGHT_HITS in requirements else ()),
             *((media.absorb,) if absorbs else ()),
             *((add_environment,) if world.lights.environment else (add_background,) if needs.BACKGROUND in requirements else ()),
             *((add_emission,) if needs.EMISSIVE_MESHES in requirements and world.emitters.count else ()),
+            *((add_moving_emission,) if needs.EMISSIVE_MESHES in requirements and world.movers else ()),
         )
         can_sample = integrator.samples_lights and world.materials.rough_lobes and not world.lights.is_empty
         is_clipped = needs.CLIP_RANGE in requirements
+        follows = needs.CAMERA_MOTION in requirements
+        nearest, blocked = (closest_at_time, occluded_at_time) if world.movers else (closest, occluded)
         camera = scene.camera
         scale = world.frame.scale
         row = camera.row(settings.width, settings.height, scale) | (clip_row(camera, scale) if is_clipped else {})
@@ -100,19 +120,26 @@ class Plan:
             filter=FILTERS[settings.pixel_filter],
             camera=type(camera),
             camera_k=columns([row]),
-            carry=(("inside", media.in_no_body),) if has_media else (),
+            camera_poses=Poses.of((Path.of_camera(scene.camera, world.frame),)) if follows else None,
+            carry=(
+                *(((TIME, start_time),) if follows or world.movers else ()),
+                *((("inside", media.in_no_body),) if has_media else ()),
+            ),
             aim=through_the_lens if needs.LENS in requirements else through_the_pinhole,
             aperture=bladed_aperture if camera.lens.blades else round_aperture,
+            # What comes before the camera moves is said of a camera at rest.
             on_camera_rays=(
                 *((start_in_range,) if is_clipped else ()),
-                *((media.start_inside(closest),) if has_media else ()),
+                *((follow_camera,) if follows else ()),
+                *((media.start_inside(nearest),) if has_media else ()),
             ),
-            closest=media.through_media(closest) if is_nested else closest,
-            occluded=media.occluded_in_media(occluded, media.through_media(closest)) if is_nested else occluded,
-            meet=meet_in_range if is_clipped else meet_nearest,
+            closest=media.through_media(nearest) if is_nested else nearest,
+            occluded=media.occluded_in_media(blocked, media.through_media(nearest)) if is_nested else blocked,
+            meet=(meet_in_moving_range if follows else meet_in_range) if is_clipped else meet_nearest,
             unblocked=media.absorbed(unblocked) if absorbs else unblocked,
+            seen_from_camera=seen_from_camera if follows else seen_at_rest,
             on_rays=on_rays,
-            interact=interact_at_rest,
+            interact=interact_at_time if world.movers else interact_at_rest,
             adjust_surface=(),
             adjust_reflection=(media.relative_indices,) if is_nested else (),
             on_surface=integrator.on_surface if can_sample else (),

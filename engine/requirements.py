@@ -44,10 +44,14 @@ class Requirements:
         for material in dict.fromkeys(material for o in bodies for material in inside_of(o)):
             if material.medium is not None and any(material.medium.absorption):
                 ask(needs.ABSORPTION, material.name)
+        if len(camera.motion):
+            ask(needs.CAMERA_MOTION, camera.name)
         for o in scene.objects:
             if not o.mesh.triangles.shape[1]:
                 continue
             ask(needs.GEOMETRY, o.name)
+            if not o.is_still:
+                ask(needs.OBJECT_MOTION, o.name)
             if o.mesh.is_smooth:
                 ask(needs.SMOOTH_NORMALS, o.name)
             for material in o.materials:

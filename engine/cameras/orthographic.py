@@ -9,6 +9,7 @@ from ..errors import SceneError
 from ..maths.transforms import look_at
 from ..maths.vectors import dot, length
 from ..scene.lens import PINHOLE, Lens
+from ..scene.motion import no_motion, settle
 from . import registry
 
 
@@ -21,6 +22,8 @@ class OrthographicCamera:
     window                (left, right, bottom, top) of what is seen of the plane [m]; not centred for a shifted camera
     clip_start, clip_end  camera rays meet only what is so far away along the axis [m]
     lens                  a `Lens`, at every point of the plane; the default is a pinhole
+    motion                (K, 4, 4) world_from_camera at equally spaced times, the first and the last included, while the shutter
+                          is open; none (0, 4, 4): it stands still. `world_from_camera` is then set to the middle
     """
 
     key = "orthographic"
@@ -32,6 +35,10 @@ class OrthographicCamera:
     clip_start: float = 0.0
     clip_end: float = math.inf
     lens: Lens = PINHOLE
+    motion: np.ndarray = field(default_factory=no_motion)
+
+    def __post_init__(self):
+        settle(self, "camera", "world_from_camera")
 
     @classmethod
     def look_at(cls, eye, target, up=(0.0, 0.0, 1.0), height=2.0, aspect=1.0, name="Camera", **others):

@@ -8,6 +8,7 @@ import numpy as np
 from ..errors import SceneError
 from ..maths.vectors import cross, dot, length, normalize
 from ..scene.lens import PINHOLE, Lens
+from ..scene.motion import no_motion, settle
 from . import registry
 
 
@@ -23,6 +24,8 @@ class PanoramaCamera:
     latitude              (bottom, top) of the frame [rad]; 0 is the horizon, positive up
     clip_start, clip_end  camera rays meet only what is so far away along the ray [m]
     lens                  a `Lens`, across every ray; the default is a pinhole
+    motion                (K, 4, 4) world_from_camera at equally spaced times, the first and the last included, while the shutter
+                          is open; none (0, 4, 4): it stands still. `world_from_camera` is then set to the middle
     """
 
     key = "panorama"
@@ -35,6 +38,10 @@ class PanoramaCamera:
     clip_start: float = 0.0
     clip_end: float = math.inf
     lens: Lens = PINHOLE
+    motion: np.ndarray = field(default_factory=no_motion)
+
+    def __post_init__(self):
+        settle(self, "camera", "world_from_camera")
 
     def check(self):
         for name, (low, high) in (("longitude", self.longitude), ("latitude", self.latitude)):

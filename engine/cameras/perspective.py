@@ -9,6 +9,7 @@ from ..errors import SceneError
 from ..maths.transforms import look_at
 from ..maths.vectors import dot, length
 from ..scene.lens import PINHOLE, Lens
+from ..scene.motion import no_motion, settle
 from . import registry
 
 
@@ -22,6 +23,8 @@ class PerspectiveCamera:
                           not centred for a shifted lens
     clip_start, clip_end  camera rays meet only what is so far away along the axis [m]
     lens                  a `Lens`; the default is a pinhole
+    motion                (K, 4, 4) world_from_camera at equally spaced times, the first and the last included, while the shutter
+                          is open; none (0, 4, 4): it stands still. `world_from_camera` is then set to the middle
     """
 
     key = "perspective"
@@ -33,6 +36,10 @@ class PerspectiveCamera:
     clip_start: float = 0.0
     clip_end: float = math.inf
     lens: Lens = PINHOLE
+    motion: np.ndarray = field(default_factory=no_motion)
+
+    def __post_init__(self):
+        settle(self, "camera", "world_from_camera")
 
     @classmethod
     def look_at(cls, eye, target, up=(0.0, 0.0, 1.0), fov=math.radians(40), aspect=1.0, name="Camera", **others):

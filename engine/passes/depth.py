@@ -15,8 +15,9 @@ class Depth:
     background = 1e10
 
     @staticmethod
-    def values(plan, surface):
-        return plan.camera.depth(plan.camera_k, surface.p)[None] / plan.world.frame.scale
+    def values(plan, rays, surface):
+        p = plan.seen_from_camera(plan, rays, surface.p)
+        return plan.camera.depth(plan.camera_k, p)[None] / plan.world.frame.scale
 
     @staticmethod
     def gather(radiance, first_hits):

@@ -15,7 +15,7 @@ class Normal:
     background = 0.0
 
     @staticmethod
-    def values(plan, surface):
+    def values(plan, rays, surface):
         return surface.ns
 
     @staticmethod

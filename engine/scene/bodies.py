@@ -39,7 +39,9 @@ def sharing_space(objects):
 
 @np.errstate(over="ignore", invalid="ignore")
 def _bounds(o):
-    """Least and greatest coordinates of a box around the object, world space."""
+    """Least and greatest coordinates of a box around the object, world space; what moves may come anywhere."""
+    if not o.is_still:
+        return np.full(3, -np.inf), np.full(3, np.inf)
     low, high = o.mesh.vertices.min(axis=1), o.mesh.vertices.max(axis=1)
     corners = np.array(list(product(*zip(low, high))), np.float64).T
     placed = o.world_from_object[:3, :3] @ corners + o.world_from_object[:3, 3:]

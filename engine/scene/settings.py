@@ -26,6 +26,7 @@ class Settings:
     adaptive_levels     how often it may be, in four each time; `samples` is then that of each part
     passes         names of passes, see the registry
     tile_size      side of the square tiles [px]; 0: the whole frame; does not change the picture
+    motion_steps   shapes that a mesh which deforms while the shutter is open takes; each costs its memory once more
     threads        worker threads; 0: one per processor; does not change the picture
     """
 
@@ -47,6 +48,7 @@ class Settings:
     passes: tuple = ("Combined",)
     tile_size: int = 64
     threads: int = 0
+    motion_steps: int = 8
 
     def __post_init__(self):
         for name, lowest, highest in (
@@ -58,6 +60,7 @@ class Settings:
             ("adaptive_levels", 1, 6),
             ("tile_size", 0, 65536),
             ("threads", 0, 1024),
+            ("motion_steps", 1, 1024),
         ):
             value = getattr(self, name)
             if isinstance(value, bool) or not isinstance(value, int) or not lowest <= value <= highest:

@@ -44,6 +44,8 @@ def _check_camera(scene):
         raise SceneError(f"scene '{scene.name}': {type(camera).__name__} is not a camera")
     if not np.isfinite(camera.world_from_camera).all() or not np.linalg.det(camera.world_from_camera[:3, :3]):
         raise SceneError(f"camera '{camera.name}': its transform is not finite or flattens space")
+    if not np.isfinite(camera.motion).all() or not np.linalg.det(camera.motion[:, :3, :3]).all():
+        raise SceneError(f"camera '{camera.name}': its motion is not finite or flattens space")
     if not (0 <= camera.clip_start < camera.clip_end):
         raise SceneError(f"camera '{camera.name}': clip range is {camera.clip_start} to {camera.clip_end}, allowed: 0 <= start < end")
     camera.lens.check(camera.name)
@@ -51,9 +53,12 @@ def _check_camera(scene):
 
 
 def _check_object(o, warnings):
-    if not np.isfinite(o.world_from_object).all():
+    if not (np.isfinite(o.world_from_object).all() and np.isfinite(o.motion).all()):
         warnings.append(f"object '{o.name}' is left out: its transform is not finite")
         return None
+    if not np.isfinite(o.mesh.shapes).all():
+        warnings.append(f"object '{o.name}' keeps its shape: a vertex of mesh '{o.mesh.name}' is not finite while the shutter is open")
+        o = dataclasses.replace(o, mesh=o.mesh.at(0.0))
     for material in o.materials:
         _check_material(material)
     return o

@@ -11,7 +11,9 @@ import numpy as np
 from ..arrays import frozen
 from ..errors import SceneError
 from ..maths.normals import vertex_normals
+from ..maths.poses import between
 from .medium import Medium
+from .motion import no_motion, settle
 
 
 def _array(owner, name, dtype, shape):
@@ -37,6 +39,9 @@ class Mesh:
     normals           (3, K) shading normals, unit; none (3, 0): the mesh is flat
     normal_indices    (3, F) which normal each corner of each triangle takes; none (3, 0): the mesh is flat
     material_indices  (F,) which of the object's materials each triangle wears; none (0,): the first
+    shapes            (K, 3, V) the vertices at equally spaced times, the first and the last included, while the shutter is open;
+                      none (0, 3, 0): the mesh keeps its shape. `vertices` are then set to the middle
+    shape_normals     (K, 3, K_n) the normals at the same times; none (0, 3, 0): they stay
     Raises SceneError where shapes or indices do not fit.
     """
 
@@ -46,8 +51,11 @@ class Mesh:
     normals: np.ndarray = field(default_factory=lambda: np.zeros((3, 0)))
     normal_indices: np.ndarray = field(default_factory=lambda: np.zeros((3, 0)))
     material_indices: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    shapes: np.ndarray = field(default_factory=lambda: np.zeros((0, 3, 0)))
+    shape_normals: np.ndarray = field(default_factory=lambda: np.zeros((0, 3, 0)))
 
     def __post_init__(self):
+        self._settle_shapes()
         is_double = getattr(self.vertices, "dtype", None) == np.float64
         _array(self, "vertices", np.float64 if is_double else np.float32, (3, None))
         _array(self, "triangles", np.int32, (3, None))
@@ -59,6 +67,40 @@ class Mesh:
         for name in ("normal_indices", "material_indices"):
             if getattr(self, name).shape[-1] not in (0, self.triangles.shape[1]):
                 raise SceneError(f"mesh '{self.name}': {name} must have one entry for each of {self.triangles.shape[1]} triangles, or none")
+
+    def _settle_shapes(self):
+        """Keys that are all the same are no deformation; else vertices and normals become those of the middle."""
+        _array(self, "shape_normals", np.float32, (None, 3, None))
+        is_double = getattr(self.shapes, "dtype", None) == np.float64
+        _array(self, "shapes", np.float64 if is_double else np.float32, (None, 3, None))
+        shapes, normals = self.shapes, self.shape_normals
+        for name, keys, still in (("shapes", shapes, self.vertices), ("shape_normals", normals, self.normals)):
+            if len(keys) and keys.shape[1:] != np.shape(still):
+                raise SceneError(f"mesh '{self.name}': {name} have shape {keys.shape}, expected (any, 3, {np.shape(still)[-1]})")
+        if len(normals) not in (0, len(shapes)):
+            raise SceneError(f"mesh '{self.name}': {len(shapes)} shapes, but {len(normals)} shape_normals")
+        if not len(shapes):
+            return
+        moves = bool((shapes != shapes[0]).any() or (len(normals) and (normals != normals[0]).any()))
+        object.__setattr__(self, "vertices", between(shapes, 0.5).astype(shapes.dtype) if moves else shapes[0])
+        if len(normals):
+            object.__setattr__(self, "normals", between(normals, 0.5).astype(np.float32) if moves else normals[0])
+        if not moves:
+            object.__setattr__(self, "shapes", np.zeros((0, 3, 0), shapes.dtype))
+            object.__setattr__(self, "shape_normals", np.zeros((0, 3, 0), np.float32))
+
+    @property
+    def deforms(self):
+        """Whether its shape changes while the shutter is open."""
+        return len(self.shapes) > 0
+
+    def at(self, time):
+        """The mesh as it is at `time` in [0, 1] of the shutter, without shapes."""
+        if not self.deforms:
+            return self
+        normals = between(self.shape_normals, time) if len(self.shape_normals) else self.normals
+        none = {"shapes": np.zeros((0, 3, 0)), "shape_normals": np.zeros((0, 3, 0))}
+        return replace(self, vertices=between(self.shapes, time), normals=normals, **none)
 
     @property
     def is_smooth(self):
@@ -74,7 +116,7 @@ class Mesh:
         if not 0 <= angle <= math.pi:
             raise SceneError(f"mesh '{self.name}': the angle of smoothing is {angle}, allowed: 0 to pi")
         normals, indices = vertex_normals(self.vertices, self.triangles, angle)
-        return replace(self, normals=normals, normal_indices=indices)
+        return replace(self, normals=normals, normal_indices=indices, shape_normals=np.zeros((0, 3, 0)))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -105,16 +147,30 @@ class Object:
 
     world_from_object  (4, 4) affine, float64
     materials          one for each material index of the mesh; indices beyond the last take the last, none is black
+    motion             (K, 4, 4) world_from_object at equally spaced times, the first and the last included, while the shutter is
+                       open; none (0, 4, 4): it stands still. `world_from_object` is then set to the middle
     """
 
     name: str
     mesh: Mesh
     world_from_object: np.ndarray = field(default_factory=lambda: np.eye(4))
     materials: tuple = ()
+    motion: np.ndarray = field(default_factory=no_motion)
 
     def __post_init__(self):
+        settle(self, "object", "world_from_object")
         _array(self, "world_from_object", np.float64, (4, 4))
         object.__setattr__(self, "materials", tuple(self.materials))
+
+    @property
+    def moves(self):
+        """Whether it changes its place while the shutter is open."""
+        return len(self.motion) > 0
+
+    @property
+    def is_still(self):
+        """Whether nothing of it changes while the shutter is open."""
+        return not (self.moves or self.mesh.deforms)
 
 
 @dataclass(frozen=True, kw_only=True)

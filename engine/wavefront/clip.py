@@ -20,6 +20,11 @@ def meet_in_range(plan, rays):
     """`Hits` of a batch of rays, of which camera rays end where the clip range does."""
     if rays.depth:
         return meet_nearest(plan, rays)
+    return plan.closest(plan, rays.carried, rays.o, rays.d, range_along(plan, rays.d))
+
+
+def range_along(plan, d):
+    """How far camera rays along d (3, N), of a camera at rest, reach from where the range starts: (N,) float32."""
     k = plan.camera_k
-    limit = k.clip_length * plan.camera.ray_per_depth(k, rays.d)
-    return plan.closest(plan, rays.carried, rays.o, rays.d, limit.astype(np.float32, copy=False))
+    limit = k.clip_length * plan.camera.ray_per_depth(k, d)
+    return limit.astype(np.float32, copy=False)

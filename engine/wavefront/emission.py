@@ -10,7 +10,7 @@ from .mis import power_heuristic
 def add_emission(plan, rays, hits, film):
     """Emission where rays hit a mesh that emits, weighted against the shadow ray that could have found it."""
     world, k = plan.world, plan.world.emitters.k
-    lanes = np.nonzero(hits.prim >= world.triangles.first_emitter)[0]
+    lanes = np.nonzero((hits.prim >= world.triangles.first_emitter) & (hits.prim < world.triangles.first_moving))[0]
     if not lanes.size:
         return
     patch = world.emitters.patch.take(hits.prim.take(lanes) - world.triangles.first_emitter)

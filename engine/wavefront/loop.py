@@ -39,7 +39,7 @@ def _trace(plan, rays, film, is_cancelled):
         for adjust in plan.adjust_surface:
             surface = adjust(plan, rays, surface)
         for p in plan.first_hits if rays.depth == 0 else ():
-            film.first_hits[p.key][:, rays.slot] = p.values(plan, surface)
+            film.first_hits[p.key][:, rays.slot] = p.values(plan, rays, surface)
         if not world.materials.lobes:
             continue
         reflection = world.materials.at(surface.material)

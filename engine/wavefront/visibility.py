@@ -22,6 +22,11 @@ def meet_nearest(plan, rays):
     return plan.closest(plan, rays.carried, rays.o, rays.d)
 
 
+def seen_at_rest(plan, rays, p):
+    """Points p (3, N) of render space as a camera at rest sees them: where they are."""
+    return p
+
+
 def interact_at_rest(plan, rays, hits):
     """The `Surface` where `rays` met triangles."""
     return interact(plan.world.triangles, plan.shading_normals, rays.d, hits)

@@ -14,15 +14,21 @@ from .frame import Frame
 from .lights import Lights
 from .materials import Materials
 from .media import Media
+from .movers import Movers, Moving
 from .placement import place
 
 FARTHEST = 1e12
 """In render space; Embree's robust test overflows from 3e12 on, and finds nothing."""
+_MOVES = 2
+"""The rank of triangles that move: 0 is that of others, 1 that of those which emit."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Triangles:
-    """The merged mesh in render space; every array has one column per triangle, those that emit come last.
+    """The merged mesh in render space; every array has one column per triangle.
+
+    First those that stand still, of which those that emit come last; then those that move, object by object, each in its
+    object's local frame (see `movers`), and once for each shape that it takes.
 
     shape           (12, F) float32: first corner, the edges to the second and third, and the geometric normal (unit, by
                     winding), three rows each
@@ -31,7 +37,8 @@ class Triangles:
     corner_normals  (9, S) float32: the shading normal of the first corner, and the differences to those of the second
                     and third
     material        (F,) intp, a row of `Materials`
-    first_emitter   triangles from here on emit
+    first_emitter   triangles from here on emit, up to
+    first_moving    from where on they move
     """
 
     shape: np.ndarray
@@ -40,19 +47,23 @@ class Triangles:
     corner_normals: np.ndarray
     material: np.ndarray
     first_emitter: int
+    first_moving: int
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CompiledWorld:
     """What rays travel through.
 
-    emitters    the patches that emit: the last ones of `lights`, made of the last ones of `triangles`
+    accel       the triangles that stand still
+    movers      the others; None where all stand still
+    emitters    the patches that emit: the last ones of `lights`, made of the last ones of the triangles that stand still
     background  (3, 1) float32 [W m^-2 sr^-1]
     media       what is inside of bodies; None where nobody asks
     """
 
     frame: Frame
     accel: Accel
+    movers: object
     triangles: Triangles
     materials: Materials
     lights: Lights
@@ -64,26 +75,31 @@ class CompiledWorld:
 
 # Corners may be anything; what is not finite after all is found by `_measure` and told.
 @np.errstate(over="ignore", invalid="ignore")
-def compile_world(scene, bsdfs, smooth, has_choice, samples_lights=True, has_media=False, has_environment=False):
+def compile_world(scene, bsdfs, smooth, has_choice, samples_lights=True, has_media=False, has_environment=False, motion_steps=0):
     """`scene` (validated) as a `CompiledWorld`.
 
     `bsdfs` are the lobes to make room for, `smooth` says that shading normals are wanted, `has_choice` that there may
     be more than one light, `samples_lights` that shadow rays look for them, `has_media` that it matters what is inside of
-    bodies, `has_environment` that the world has a picture that gives light. Raises SceneError where the geometry does not
-    fit into memory.
+    bodies, `has_environment` that the world has a picture that gives light. Deforming meshes take `motion_steps` shapes,
+    and without any all is as at the middle of the shutter. Raises SceneError where the geometry does not fit into memory.
     """
     materials, row = _number_materials(scene)
     table = Materials.of(materials, bsdfs)
-    parts = place(scene.objects, row, smooth)
-    frame, vertices, indices = _merge(parts, scene.camera.position)
+    still = place([(i, o) for i, o in enumerate(scene.objects) if o.is_still or not motion_steps], row, smooth)
+    changing = [(i, o) for i, o in enumerate(scene.objects) if motion_steps and o.mesh.triangles.size and not o.is_still]
+    moving = [Moving.of(i, o, row, smooth, motion_steps) for i, o in changing]
+    parts = [*still, *(part for m in moving for part in m.parts)]
+    frame, vertices, indices, radius = _merge(still, moving, scene.camera.position)
     material = _concatenate([part.material for part in parts], 0).astype(np.intp)
     owner = _concatenate([part.owner for part in parts], 0).astype(np.intp)
     corners, double_area, normal, usable = _measure(vertices, indices)
     warnings = _report_unusable(usable)
-    # A triangle without an area is never hit: leaving it out changes no picture. Emitters come last.
-    emits = table.emission.any(axis=0)[material]
+    # A triangle without an area is never hit: leaving it out changes no picture. Emitters come last, but for what moves.
+    rank = table.emission.any(axis=0)[material].astype(np.int8)
+    rank[sum(part.owner.size for part in still) :] = _MOVES
     keep = np.nonzero(usable & (double_area > 0))[0]
-    keep = keep[np.argsort(emits[keep], kind="stable")]
+    keep = keep[np.argsort(rank[keep], kind="stable")]
+    rank = rank[keep]
     corners, normal, material = corners.take(keep, axis=2), normal.take(keep, axis=1), material[keep]
     indices = indices.take(keep, axis=1)
     e1, e2 = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
@@ -94,14 +110,15 @@ def compile_world(scene, bsdfs, smooth, has_choice, samples_lights=True, has_med
         smooth=column,
         corner_normals=corner_normals,
         material=material,
-        first_emitter=keep.size - np.count_nonzero(emits[keep]),
+        first_emitter=np.count_nonzero(rank < 1),
+        first_moving=np.count_nonzero(rank < _MOVES),
     )
     try:
-        accel = Accel(vertices, indices)
+        accel = Accel(vertices, indices[:, : triangles.first_moving])
+        movers = _movers(moving, parts, frame, vertices, indices, keep) if moving else None
     except AccelError as error:
         raise SceneError(f"scene '{scene.name}': {error}") from error
-    radius = float(np.abs(corners).max(initial=0)) / frame.scale or 1.0
-    last = slice(triangles.first_emitter, None)
+    last = slice(triangles.first_emitter, triangles.first_moving)
     emitters = Emitters.of(
         vertices, indices[:, last], normal[:, last], table.emission.take(material[last], axis=1), owner[keep][last]
     )
@@ -111,6 +128,7 @@ def compile_world(scene, bsdfs, smooth, has_choice, samples_lights=True, has_med
     return CompiledWorld(
         frame=frame,
         accel=accel,
+        movers=movers,
         triangles=triangles,
         materials=table,
         lights=Lights.of(scene.lights, environment, emitters, frame, radius, has_choice, samples_lights),
@@ -129,14 +147,38 @@ def _number_materials(scene):
     return materials, {material: i for i, material in enumerate(materials)} | {None: len(materials) - 1}
 
 
-def _merge(parts, origin):
-    """Render space, and the vertices (3, V) float32 and triangles (3, F) of all parts in it."""
-    vertices = _concatenate([part.vertices for part in parts], (3, 0))
-    counts = np.cumsum([0] + [part.vertices.shape[1] for part in parts])
-    indices = _concatenate([part.triangles + start for part, start in zip(parts, counts)], (3, 0)).astype(np.int32)
-    frame = Frame.around(origin, length(vertices - origin[:, None]))
+def _merge(still, moving, origin):
+    """Render space; the vertices (3, V) float32 and triangles (3, F) of all parts, each in its frame; the scene's radius [m]."""
+    world = _concatenate([part.vertices for part in still], (3, 0))
+    away = _concatenate([world, *(m.world for m in moving)], (3, 0)) - origin[:, None]
+    frame = Frame.around(origin, length(away))
+    parts = [*still, *(part for m in moving for part in m.parts)]
     # Rounded once; from here on the rounded values are the geometry, for Embree and for everything else.
-    return frame, frame.points(vertices).astype(np.float32), indices
+    local = [(frame.scale * part.vertices).astype(np.float32) for m in moving for part in m.parts]
+    vertices = _concatenate([frame.points(world).astype(np.float32), *local], (3, 0))
+    indices = _concatenate([part.triangles + start for part, start in zip(parts, _starts(parts))], (3, 0)).astype(np.int32)
+    usable = np.abs(away[:, (np.abs(away) * frame.scale < FARTHEST).all(axis=0)])
+    return frame, vertices, indices, float(usable.max(initial=0)) or 1.0
+
+
+def _starts(parts):
+    """Where the vertices of each of `parts` begin, and where those of the last one end."""
+    return np.cumsum([0] + [part.vertices.shape[1] for part in parts])
+
+
+def _movers(moving, parts, frame, vertices, indices, keep):
+    """The `Movers`: their parts are the last of `parts`, their triangles the last of `indices` (3, F), which were `keep` (F,)."""
+    count = sum(len(m.parts) for m in moving)
+    faces = np.searchsorted(np.sort(keep), np.cumsum([0] + [part.owner.size for part in parts]))
+    corners = _starts(parts)
+    own = range(len(parts) - count, len(parts))
+    return Movers.of(
+        moving,
+        frame,
+        [np.ascontiguousarray(vertices[:, corners[i] : corners[i + 1]]) for i in own],
+        [indices[:, faces[i] : faces[i + 1]] - corners[i] for i in own],
+        int(faces[own[0]]),
+    )
 
 
 def _measure(vertices, indices):

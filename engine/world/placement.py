@@ -26,10 +26,13 @@ class Part:
     owner: np.ndarray
 
 
-def place(objects, row, smooth):
-    """The `Part`s of a scene's `objects`; `row` numbers the materials, None is black; `smooth` asks for normals."""
+def place(numbered, row, smooth):
+    """The `Part`s of `numbered` objects, pairs (place in the scene, object).
+
+    `row` numbers the materials, None is black; `smooth` asks for normals.
+    """
     same_mesh = {}
-    for place_in_scene, o in enumerate(objects):
+    for place_in_scene, o in numbered:
         if o.mesh.triangles.shape[1]:
             same_mesh.setdefault(id(o.mesh), []).append((place_in_scene, o))
     return [_place_instances(instances, row, smooth) for instances in same_mesh.values()]

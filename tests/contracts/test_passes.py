@@ -83,8 +83,21 @@ def test_depth_of_a_tilted_plane_is_that_of_one_sample():
     assert (depth >= np.minimum(exact[:-1], exact[1:])[:, None] - 1e-5).all()
 
 
+def test_depth_is_measured_from_where_the_camera_is_at_the_time_of_the_sample():
+    """A camera that moves back, seen by a wall: the depth of the first sample is one on the way, and differs from pixel to pixel."""
+    scene, _ = plane_at(0.0, 7.5)
+    view = scene.camera.world_from_camera
+    back = view @ h.affine(translation=(0, 0, 1.0))
+    camera = h.replaced(scene.camera, motion=np.stack([view, back]))
+    for clipped in ({}, {"clip_start": 0.5, "clip_end": 30.0}):
+        depth = passes_of(h.replaced(scene, camera=h.replaced(camera, **clipped)), samples=1)["Depth"]
+        assert 7.4999 < depth.min() < 7.7
+        assert 8.3 < depth.max() < 8.5
+        assert np.unique(depth).size > 50
+
+
 def test_depth_catches_a_distance_along_the_ray(monkeypatch):
-    def along_the_ray(plan, surface):
+    def along_the_ray(plan, rays, surface):
         return np.sqrt((surface.p**2).sum(axis=0))[None] / np.float32(plan.world.frame.scale)
 
     monkeypatch.setattr(Depth, "values", staticmethod(along_the_ray))

@@ -27,6 +27,7 @@ from glanz.engine.plan import Plan
 from glanz.engine.wavefront.numbers import Dimension
 from glanz.engine.world.accel import Accel
 from glanz.tests import helpers as h, scenes
+from glanz.tests.moving import moving, shifted, turned
 
 SETTINGS = h.settings(width=16, height=16, samples=4, max_depth=3)
 ALWAYS = {"integrator path", "sampler stratified", "filter box", "pass Combined", "camera perspective"}
@@ -53,6 +54,16 @@ TABLE = {
     "closed lens": (h.scene(camera=h.replaced(EYE, lens=Lens(blades=5, focus_distance=2.0))), {}),
     "near clip": (h.scene(camera=h.replaced(EYE, clip_start=0.1)), {"clip range": ["Eye"]}),
     "far clip": (h.scene(camera=h.replaced(EYE, clip_end=100.0)), {"clip range": ["Eye"]}),
+    "camera motion": (h.scene(camera=h.replaced(EYE, motion=shifted((0, 0, 0), (1, 0, 0)))), {"camera motion": ["Eye"]}),
+    "camera at rest": (h.scene(camera=h.replaced(EYE, motion=np.stack([EYE.world_from_camera] * 2))), {}),
+    "moving": (
+        h.scene([moving(MATTE, shifted((0, 0, 0), (1, 0, 0)))]),
+        {"geometry": ["chair"], "object motion": ["chair"], "bsdf lambert": ["wood"]},
+    ),
+    "deforming": (
+        h.scene([h.replaced(MATTE, mesh=h.replaced(MATTE.mesh, shapes=np.stack([MATTE.mesh.vertices, 2 * MATTE.mesh.vertices])))]),
+        {"geometry": ["chair"], "object motion": ["chair"], "bsdf lambert": ["wood"]},
+    ),
     "nothing": (h.scene(), {}),
     "matte": (h.scene([MATTE]), {"geometry": ["chair"], "bsdf lambert": ["wood"]}),
     "shiny": (h.scene([SHINY]), {"geometry": ["box"], "bsdf phong": ["brass"]}),
@@ -158,6 +169,8 @@ SCENES = {
     "glass in glass": h.scene([h.thing(LEFT, GLASS), h.thing(INNER, STRONG), FLOOR], [BULB], world=0.5),
     "seen, not lit": h.scene([MATTE, FLOOR]),
     "everything": scenes.everything(),
+    "moving": h.scene([moving(MATTE, turned((0.0, 0.5))), FLOOR], [BULB]),
+    "moving camera": h.scene([MATTE, FLOOR], [BULB], h.replaced(EYE, motion=shifted((0, 0, 0), (0.3, 0, 0)) @ VIEW)),
 }
 
 

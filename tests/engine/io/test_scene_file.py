@@ -40,6 +40,10 @@ def a_scene():
         normals=rng.standard_normal((3, 9)), normal_indices=rng.integers(0, 9, (3, 30)), material_indices=rng.integers(0, 2, 30),
     )
     small = Mesh(name="small", vertices=np.float32([[0, 1, 0], [0, 0, 1], [0, 0, -0.0]]), triangles=[[0], [1], [2]])
+    shaped = Mesh(
+        name="shaped", vertices=np.zeros((3, 9)), triangles=rng.integers(0, 9, (3, 4)), normals=np.zeros((3, 5)),
+        shapes=rng.standard_normal((4, 3, 9)), shape_normals=rng.standard_normal((4, 3, 5)),
+    )
     red = Material(name="röt", lobes=(Lambert((0.7, 0.1, 1 / 3)), Phong((0.1, 0.1, 0.1), exponent=np.float32(12.3))))
     red = dataclasses.replace(red, medium=Medium(absorption=(1 / 3, 0, float("inf")), priority=-2))
     lamp = Material(name="lamp", emission=(1e-300, 5, 7))
@@ -48,11 +52,13 @@ def a_scene():
         camera=PerspectiveCamera(
             name="cam", world_from_camera=matrix, window=(-0.1, 0.5, -0.3, 0.3),
             clip_start=1 / 3, lens=Lens(radius=0.1, focus_distance=np.float32(0.3), blades=7),
+            motion=rng.standard_normal((3, 4, 4)),
         ),
         objects=[
             Object(name="a", mesh=corners, materials=(red, lamp), world_from_object=matrix),
             Object(name="b", mesh=corners, materials=(lamp,)),
-            Object(name="c", mesh=small),
+            Object(name="c", mesh=small, motion=rng.standard_normal((2, 4, 4))),
+            Object(name="e", mesh=shaped),
             Object(name="d", mesh=small, world_from_object=np.full((4, 4), np.nan)),
         ],
         lights=(
@@ -109,12 +115,13 @@ def test_the_comparison_above_sees_one_bit(saved):
 
 
 def test_what_is_shared_stays_shared(saved):
-    a, b, c, d = read_scene(saved)[0].objects
+    a, b, c, _, d = read_scene(saved)[0].objects
     assert a.mesh is b.mesh and c.mesh is d.mesh and a.mesh is not c.mesh
     assert a.materials[1] is b.materials[0]
     with zipfile.ZipFile(saved) as file:
-        # vertices, triangles, normals, normal_indices, material_indices of the one large mesh, a matrix that is not finite, a sky
-        assert len(file.namelist()) == 7 + 1
+        # vertices, triangles, normals, normal_indices, material_indices of the one large mesh, a matrix that is not finite, a sky;
+        # two motions; shapes, their normals, and the vertices that follow from them
+        assert len(file.namelist()) == 7 + 2 + 3 + 1
 
 
 def test_every_plug_in_with_its_defaults_comes_back(tmp_path):
@@ -175,6 +182,9 @@ EDITS = {
     "position": lambda d: d["scene"]["lights"][0].update(position=["a", "b", "c"]),
     "radius": lambda d: d["scene"]["lights"][0].update(radius=10**300),
     "window": lambda d: d["scene"]["camera"].update(window=[0, 1]),
+    "motion": lambda d: d["scene"]["objects"][2].update(motion={"array": [1, 2], "dtype": "float64", "shape": [2]}),
+    "shapes": lambda d: d["shared"][-1].update(shapes={"array": [1, 2], "dtype": "float64", "shape": [2]}),
+    "setting motion_steps": lambda d: d["settings"].update(motion_steps=0),
     "lens": lambda d: d["scene"]["camera"].update(lens=d["scene"]["world"]),
     "blades": lambda d: d["scene"]["camera"]["lens"].update(blades=2.5),
     "clip_end": lambda d: d["scene"]["camera"].update(clip_end="far"),

@@ -8,14 +8,14 @@ import pytest
 from glanz.engine import SceneError, Settings
 
 
-@pytest.mark.parametrize("name", ["width", "height", "samples", "max_depth", "tile_size", "threads"])
+@pytest.mark.parametrize("name", ["width", "height", "samples", "max_depth", "tile_size", "threads", "motion_steps"])
 @pytest.mark.parametrize("value", [-1, 2.5, "8", None, True, 10**9])
 def test_whole_numbers_out_of_range_are_refused_by_name(name, value):
     with pytest.raises(SceneError, match=f"setting {name} is {value!r}, allowed: whole numbers from [01] to"):
         Settings(**{name: value})
 
 
-@pytest.mark.parametrize("name", ["width", "height", "samples"])
+@pytest.mark.parametrize("name", ["width", "height", "samples", "motion_steps"])
 def test_nothing_cannot_be_rendered(name):
     with pytest.raises(SceneError, match=f"setting {name} is 0"):
         Settings(**{name: 0})

@@ -54,6 +54,14 @@ REFUSED = {
         h.scene(camera=PerspectiveCamera(name="Eye", world_from_camera=h.affine(np.diag((1.0, 1, 0))))),
         "camera 'Eye': its transform is not finite or flattens space",
     ),
+    "camera whose motion is not finite": (
+        h.scene(camera=PerspectiveCamera(name="Eye", motion=np.stack([np.eye(4), np.full((4, 4), np.nan)]))),
+        "camera 'Eye': its motion is not finite or flattens space",
+    ),
+    "camera that flattens space on its way": (
+        h.scene(camera=PerspectiveCamera(name="Eye", motion=np.stack([np.eye(4), h.affine(np.diag((1.0, 1, 0)))]))),
+        "camera 'Eye': its motion is not finite or flattens space",
+    ),
     "camera without a window": (h.scene(camera=PerspectiveCamera(name="Eye", window=(0, 0, 0, 0))), "camera 'Eye': window is"),
     "world below zero": (h.scene(world=-1.0), r"world 'World': radiance is \(-1.0, -1.0, -1.0\)"),
     "world of NaN": (h.scene(world=math.nan), "world 'World': radiance is"),

@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from glanz.engine import Lambert, Material, Mesh, Object, Scene, SceneError, World
+from glanz.engine import Lambert, Material, Mesh, Object, PerspectiveCamera, Scene, SceneError, World
 from glanz.tests import helpers as h
 
 V = np.eye(3)
@@ -27,6 +27,9 @@ T = np.array([[0], [1], [2]])
         ({"material_indices": [[0]]}, r"mesh 'm': material_indices has shape \(1, 1\), expected \(any\)"),
         ({"triangles": T.astype(np.int64) + 2**40}, r"mesh 'm': triangles are not all whole numbers below 2\^31"),
         ({"triangles": T + 0.5}, "mesh 'm': triangles are not all whole numbers"),
+        ({"shapes": np.zeros((2, 3, 4))}, r"mesh 'm': shapes have shape \(2, 3, 4\), expected \(any, 3, 3\)"),
+        ({"shapes": np.zeros((3, 3))}, r"mesh 'm': shapes has shape \(3, 3\), expected \(any, 3, any\)"),
+        ({"shape_normals": np.zeros((2, 3, 0))}, "mesh 'm': 0 shapes, but 2 shape_normals"),
         ({"triangles": T * np.nan}, "mesh 'm': triangles are not all whole numbers"),
     ],
     ids=lambda x: next(iter(x)) if isinstance(x, dict) else "",
@@ -40,6 +43,41 @@ def test_a_bad_transform_is_refused_by_name():
     mesh = Mesh(name="m", vertices=V, triangles=T)
     with pytest.raises(SceneError, match=r"object 'chair': world_from_object has shape \(3, 3\), expected \(4, 4\)"):
         Object(name="chair", mesh=mesh, world_from_object=np.eye(3))
+
+
+def test_a_bad_motion_is_refused_by_name():
+    mesh = Mesh(name="m", vertices=V, triangles=T)
+    for motion in (np.eye(4), np.zeros((2, 3, 4)), "left"):
+        with pytest.raises(SceneError, match="object 'chair': motion "):
+            Object(name="chair", mesh=mesh, motion=motion)
+        with pytest.raises(SceneError, match="camera 'Eye': motion "):
+            PerspectiveCamera(name="Eye", motion=motion)
+
+
+def test_what_moves_stands_where_it_is_at_the_middle_of_the_shutter():
+    mesh = Mesh(name="m", vertices=V, triangles=T)
+    keys = np.stack([h.affine(translation=(x, 0, 0)) for x in (1, 2, 5, 6)])
+    for thing in (Object(name="o", mesh=mesh, motion=keys), PerspectiveCamera(motion=keys)):
+        matrix = thing.world_from_object if isinstance(thing, Object) else thing.world_from_camera
+        np.testing.assert_allclose(matrix, h.affine(translation=(3.5, 0, 0)), atol=1e-12)
+    shaped = Mesh(name="m", vertices=V, triangles=T, shapes=np.stack([V, 3 * V]), normals=V, shape_normals=np.stack([V, 2 * V]))
+    assert h.same_bits(shaped.vertices, 2 * V)
+    assert shaped.deforms
+    np.testing.assert_array_equal(shaped.at(0.25).vertices, 1.5 * V)
+    np.testing.assert_array_equal(shaped.at(0.25).normals, np.float32(1.25) * V)
+    assert not shaped.at(0.25).deforms
+
+
+def test_keys_that_are_all_the_same_are_no_motion():
+    there = h.affine(translation=(1, 2, 3))
+    o = Object(name="o", mesh=Mesh(name="m", vertices=V, triangles=T, shapes=np.stack([2 * V] * 3)), motion=np.stack([there] * 2))
+    assert o.is_still
+    assert o.motion.shape == (0, 4, 4)
+    np.testing.assert_array_equal(o.world_from_object, there)
+    np.testing.assert_array_equal(o.mesh.vertices, 2 * V)
+    camera = PerspectiveCamera(motion=there[None])
+    assert not len(camera.motion)
+    np.testing.assert_array_equal(camera.world_from_camera, there)
 
 
 def test_values_cannot_be_changed():

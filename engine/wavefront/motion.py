@@ -1,0 +1,94 @@
+"""Stages for what moves while the shutter is open: every path has a time, and meets the scene as it is then."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from ..constants import EPS32
+from ..world.interaction import START_ULPS, interact
+from . import visibility
+from .clip import range_along
+from .numbers import Dimension
+
+TIME = "time"
+"""The column of the time (N,) in [0, 1) that paths carry, from the opening of the shutter to its closing."""
+
+
+def start_time(plan, rays):
+    """The times of new paths, spread evenly over those of a pixel."""
+    return plan.numbers.one(rays, Dimension.TIME)
+
+
+def follow_camera(plan, rays):
+    """Camera rays, aimed from where the camera is at the middle of the shutter, start from where it is at their time."""
+    pose = plan.camera_poses.at(0, rays.carried.time)
+    rays.o[...], rays.d[...] = pose.points(rays.o), pose.vectors(rays.d)
+
+
+def seen_from_camera(plan, rays, p):
+    """Points p (3, N) of render space as the camera sees them at the time of `rays`: moved to its place at the middle of the shutter."""
+    return plan.camera_poses.at(0, rays.carried.time).local_points(p).astype(np.float32)
+
+
+def meet_in_moving_range(plan, rays):
+    """As `clip.meet_in_range`, for a camera that moves."""
+    if rays.depth:
+        return visibility.meet_nearest(plan, rays)
+    d = plan.camera_poses.at(0, rays.carried.time).local_vectors(rays.d).astype(np.float32)
+    return plan.closest(plan, rays.carried, rays.o, rays.d, range_along(plan, d))
+
+
+def closest_at_time(plan, carried, o, d, limit=None):
+    """As `visibility.closest`, among what stands still and what moves."""
+    hits = visibility.closest(plan, carried, o, d, limit)
+    return plan.world.movers.meet(hits, o, d, carried.time)
+
+
+def occluded_at_time(plan, carried, o, d, limit):
+    """As `visibility.occluded`, by what stands still and what moves."""
+    blocked = visibility.occluded(plan, carried, o, d, limit)
+    return plan.world.movers.block(blocked, o, d, limit, carried.time)
+
+
+def interact_at_time(plan, rays, hits):
+    """As `visibility.interact_at_rest`; what moves is met in its own frame, and carried into render space.
+
+    Rays start above a moving triangle in proportion to the rounding of p in both frames, and of the triangle; what the
+    local frame asks for is |det A| / |cof(A) n| as high in render space.
+    """
+    world, movers = plan.world, plan.world.movers
+    lanes = np.nonzero(hits.prim >= movers.first)[0]
+    if not lanes.size:
+        return visibility.interact_at_rest(plan, rays, hits)
+    prim, d = hits.prim.take(lanes), rays.d.take(lanes, axis=1)
+    pose = movers.poses.at(movers.owner.take(prim - movers.first), rays.carried.time.take(lanes))
+    local_d = np.array(rays.d)
+    local_d[:, lanes] = pose.local_vectors(d)
+    surface = interact(world.triangles, plan.shading_normals, local_d, hits)
+    local_p = surface.p.take(lanes, axis=1)
+    p = pose.points(local_p).astype(np.float32)
+    n, growth = pose.normals(surface.n.take(lanes, axis=1))
+    ns, _ = pose.normals(surface.ns.take(lanes, axis=1))
+    height = np.abs(local_p).max(axis=0) + world.triangles.extent.take(prim)
+    if not pose.is_rigid:
+        height *= np.abs(pose.volume()) / growth
+    height = START_ULPS * EPS32 * (height + np.abs(p).max(axis=0))
+    surface.p[:, lanes], surface.wo[:, lanes] = p, -d
+    surface.o[:, lanes] = p + height * n
+    return replace(surface, n=_with(surface.n, lanes, n), ns=_with(surface.ns, lanes, ns))
+
+
+def _with(vectors, lanes, values):
+    """`vectors` (3, N), which may be shared, with other values (3, M) in `lanes`."""
+    result = np.array(vectors)
+    result[:, lanes] = values
+    return result
+
+
+def add_moving_emission(plan, rays, hits, film):
+    """Emission where rays hit a moving mesh that emits; only they look for it, so it needs no weight."""
+    world = plan.world
+    lanes = np.nonzero(hits.prim >= world.movers.first)[0]
+    L = world.materials.emission.take(world.triangles.material.take(hits.prim.take(lanes)), axis=1)
+    L = L * rays.beta.take(lanes, axis=1)
+    film.add(rays.slot.take(lanes), L)
