@@ -51,6 +51,12 @@ def _add_render(commands):
         ("pixel-filter", str, "pixel filter: blackman_harris, gaussian, tent, mitchell, box"),
     ):
         command.add_argument(f"--{name}", type=kind, metavar=name[0].upper() if kind is str else "N", help=text)
+    command.add_argument(
+        "--sample-range",
+        type=sample_range,
+        metavar="FIRST,END",
+        help="render these samples only, END excluded: the mean of parts of equal size is the whole picture",
+    )
     command.add_argument("--resolution", type=resolution, metavar="WxH", help="size of the full frame in pixels")
     command.add_argument(
         "--border", type=border, metavar="X0,Y0,X1,Y1", help="render this part only: fractions of the frame from the bottom left"
@@ -103,6 +109,14 @@ def frame_range(text):
     if first > last or step < 1:
         raise argparse.ArgumentTypeError(f"'{text}' is not a range of frames, such as 1-250 or 1-250:10")
     return range(first, last + 1, step)
+
+
+def sample_range(text):
+    """(first, end) of `FIRST,END`."""
+    match = re.fullmatch(r"(\d+),(\d+)", text)
+    if not match or int(match[1]) >= int(match[2]):
+        raise argparse.ArgumentTypeError(f"'{text}' is not a range of samples, such as 0,16 and then 16,32")
+    return int(match[1]), int(match[2])
 
 
 def resolution(text):

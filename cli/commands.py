@@ -14,6 +14,7 @@ OVERRIDES = (
     "integrator",
     "sampler",
     "samples",
+    "sample_range",
     "max_depth",
     "branches",
     "min_contribution",

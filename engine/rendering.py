@@ -117,6 +117,7 @@ def metadata(scene, settings):
         "glanz.integrator": settings.integrator,
         "glanz.sampler": settings.sampler,
         "glanz.samples": str(settings.samples),
+        "glanz.sample_range": "{},{}".format(*settings.rendered_samples),
         "glanz.max_depth": str(settings.max_depth),
         "glanz.seed": str(settings.seed),
         "glanz.adaptive_threshold": f"{settings.adaptive_threshold:g}",
@@ -178,19 +179,19 @@ def _tiles(settings, longest_side):
 
 def _render_tile(plan, place, work):
     tile = plan.tile(plan, place)
-    samples = plan.settings.samples
-    weights = sample_weights(plan.filter, samples)
+    begin, end = plan.settings.rendered_samples
+    weights = sample_weights(plan.filter, plan.settings.samples)
     shown = time.monotonic()
     for number, (film, pixels) in enumerate(tile.rounds()):
         paths = 0
-        for window, first, count in _batches(pixels.px.size, samples):
+        for window, first, count in _batches(pixels.px.size, begin, end):
             film.open(count, window, weights[first : first + count])
             rays = camera_rays(plan, pixels.part(window), first, count)
             if not trace(plan, rays, film, work.cancelled.is_set):
                 return None
-            film.close(is_first=first == 0)
+            film.close(is_first=first == begin)
             paths += rays.slot.size
-            work.finish(place, (number + paths / (pixels.px.size * samples)) / tile.most_rounds(plan.settings))
+            work.finish(place, (number + paths / (pixels.px.size * (end - begin))) / tile.most_rounds(plan.settings))
             if time.monotonic() - shown > SHOW_SECONDS:
                 work.show(_tile(place, tile.result(), is_final=False))
                 shown = time.monotonic()
@@ -205,11 +206,11 @@ def _tile(place, values, is_final):
     return Tile(x, y, width, height, passes, is_final)
 
 
-def _batches(pixels, samples):
-    """(window of pixels, first sample, samples) of batches of at most LANES paths, all samples of a window in order."""
+def _batches(pixels, begin, end):
+    """(window of pixels, first sample, samples) of batches of at most LANES paths, samples begin .. end - 1 of a window in order."""
     at_once = min(pixels, LANES)
     count = max(1, LANES // at_once)
     for start in range(0, pixels, at_once):
         window = slice(start, min(start + at_once, pixels))
-        for first in range(0, samples, count):
-            yield window, first, min(count, samples - first)
+        for first in range(begin, end, count):
+            yield window, first, min(count, end - first)

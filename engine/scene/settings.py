@@ -14,6 +14,8 @@ class Settings:
     border         (x0, y0, x1, y1) [px], top left to bottom right, right and bottom excluded; empty: the whole frame
     integrator     name of an integrator
     samples        paths per pixel
+    sample_range   (first, end) of the samples that are rendered, the end excluded; empty: all. The mean of parts, by their samples,
+                   is the whole
     max_depth      bounces: 0 is direct light only (Cycles' `max_bounces`, the lecture's recursion depth)
     branches       rays that distributed ray tracing splits into at the first hit; a quarter of them at each further one
     min_contribution  what a ray must count at least to be followed in Whitted's and distributed ray tracing, in [0, 1]: epsilon_r
@@ -35,6 +37,7 @@ class Settings:
     border: tuple = ()
     integrator: str = "path"
     samples: int = 64
+    sample_range: tuple = ()
     max_depth: int = 8
     branches: int = 16
     min_contribution: float = 0.0
@@ -77,7 +80,9 @@ class Settings:
             raise SceneError(f"setting adaptive_threshold is {self.adaptive_threshold!r}, allowed: from 0 to 1")
         object.__setattr__(self, "passes", tuple(self.passes))
         object.__setattr__(self, "border", tuple(self.border))
+        object.__setattr__(self, "sample_range", tuple(self.sample_range))
         self._check_border()
+        self._check_sample_range()
 
     def _check_border(self):
         if not self.border:
@@ -89,6 +94,22 @@ class Settings:
         raise SceneError(
             f"setting border is {self.border!r}, allowed: (x0, y0, x1, y1) inside {self.width}x{self.height} px and not empty"
         )
+
+    def _check_sample_range(self):
+        if not self.sample_range:
+            return
+        if self.adaptive_threshold:
+            raise SceneError(f"setting sample_range is {self.sample_range!r}, but with an adaptive_threshold all samples decide together")
+        if len(self.sample_range) == 2 and all(isinstance(n, int) and not isinstance(n, bool) for n in self.sample_range):
+            first, end = self.sample_range
+            if 0 <= first < end <= self.samples:
+                return
+        raise SceneError(f"setting sample_range is {self.sample_range!r}, allowed: (first, end) of {self.samples} samples and not empty")
+
+    @property
+    def rendered_samples(self):
+        """(first, end) of the samples that are rendered: a part of them, or all."""
+        return self.sample_range or (0, self.samples)
 
     @property
     def region(self):

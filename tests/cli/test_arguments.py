@@ -3,7 +3,7 @@
 import pytest
 
 from glanz.cli import main
-from glanz.cli.arguments import border, frame_range, parser, resolution
+from glanz.cli.arguments import border, frame_range, parser, resolution, sample_range
 from glanz.cli.outputs import numbered
 
 
@@ -16,6 +16,7 @@ def test_a_range_of_frames_is_inclusive(text, frames):
 
 def test_the_other_values_are_what_they_say():
     assert resolution("1920x1080") == (1920, 1080)
+    assert sample_range("16,32") == (16, 32)
     assert border("0,0.25,0.5,1") == (0, 0.25, 0.5, 1)
 
 
@@ -32,6 +33,8 @@ WRONG = [
     ["render", "a.blend", "--border", "0.5,0,0.5,1"],
     ["render", "a.blend", "--border", "0,0,1,nan"],
     ["render", "a.blend", "--samples", "many"],
+    ["render", "a.blend", "--sample-range", "16"],
+    ["render", "a.blend", "--sample-range", "16,16"],
     ["render", "a.blend", "--sample", "1"],
     ["render", "a.blend", "-o", "a.jpg"],
     ["render", "a.blend", "-o", "a.exr", "-o", "a.exr"],

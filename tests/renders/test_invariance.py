@@ -1,10 +1,14 @@
-"""What must not change a picture: scale, place, order, threads, tiles, batches (catalogue A2, A3, A11, E12, G10, H3, H5)."""
+"""What must not change a picture: scale, place, order, threads, tiles, batches (catalogue A2, A3, A11, E12, G10, H3-H5)."""
+
+import itertools
 
 import numpy as np
 import pytest
 
-from glanz.engine import Mesh, PointLight, Scene, rendering
-from glanz.engine.wavefront import visibility
+from glanz.engine import INTEGRATORS, Mesh, PointLight, Scene, rendering
+from glanz.engine.maths.hashing import mix
+from glanz.engine.wavefront import numbers, visibility
+from glanz.engine.wavefront.film import Film
 from glanz.engine.world.frame import Frame
 from glanz.tests import helpers as h, scenes
 
@@ -205,6 +209,49 @@ def test_frames_of_any_shape_render(size):
     assert np.isfinite(image).all()
 
 
+def parts_and_whole(monkeypatch, settings, cuts):
+    """{pass: (C, pixels) float64} of the parts between `cuts`, by their samples in the whole, and of the whole itself; one tile."""
+    pixels = h.spy(monkeypatch, Film, "pixels")
+    mean = {}
+    for first, end in itertools.pairwise(cuts):
+        rendering.render_image(scenes.everything(), h.replaced(settings, sample_range=(first, end)))
+        for key, values in pixels[-1].result.items():
+            mean[key] = mean.get(key, 0) + values * ((end - first) / settings.samples)
+    rendering.render_image(scenes.everything(), settings)
+    return mean, pixels[-1].result
+
+
+@pytest.mark.parametrize("cuts", [(0, 16, 32, 48, 64), (0, 1, 7, 64)], ids=str)
+@pytest.mark.parametrize("changes", [{}, {"pixel_filter": "mitchell", "filter_width": 4.0}, {"sampler": "sobol"}], ids=str)
+def test_the_mean_of_parts_is_the_whole(changes, cuts, monkeypatch):
+    """H4, to 1e-12: 64 samples in four renders of 16; or what was left after cancelling, of any length."""
+    settings = h.settings(width=6, height=4, samples=64, max_depth=2, tile_size=0, passes=("Combined", "Normal"), **changes)
+    mean, whole = parts_and_whole(monkeypatch, settings, cuts)
+    for key, values in whole.items():
+        np.testing.assert_allclose(mean[key], values, rtol=1e-12, atol=1e-12)
+
+
+def test_the_mean_of_parts_catches_parts_that_begin_at_the_same_sample(monkeypatch):
+    camera_rays = rendering.camera_rays
+    monkeypatch.setattr(rendering, "camera_rays", lambda plan, pixels, first, count: camera_rays(plan, pixels, first % 16, count))
+    settings = h.settings(width=6, height=4, samples=64, max_depth=2, tile_size=0)
+    monkeypatch.setattr(rendering, "LANES", 16 * 24)
+    mean, _ = parts_and_whole(monkeypatch, settings, (0, 16, 32, 48, 64))
+    monkeypatch.setattr(rendering, "camera_rays", camera_rays)
+    _, whole = parts_and_whole(monkeypatch, settings, (0, 64))
+    assert np.abs(mean["Combined"] - whole["Combined"]).max() > 1e-3
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+def test_batches_change_no_bit_of_any_integrator(integrator, monkeypatch):
+    """H3: those that branch split what others do not; paths one by one, in odd numbers and all at once."""
+    settings = h.settings(width=6, height=4, samples=2, max_depth=2, integrator=integrator, branches=3)
+    image = all_passes(settings)
+    for lanes in (1, 7, 10**6):
+        monkeypatch.setattr(rendering, "LANES", lanes)
+        assert h.same_bits(all_passes(settings), image), lanes
+
+
 @pytest.mark.parametrize("k", [-30, -4, 5, 30])
 def test_powers_of_two_as_brightness_scale_every_bit(reference, k):
     """E12: render(2^k lights) = 2^k render(lights)."""
@@ -227,3 +274,14 @@ def test_every_integer_is_a_seed(seed):
     assert h.same_bits(h.pixels(scene, h.replaced(settings, seed=seed))[0], noise)
     other = h.pixels(scene, h.replaced(settings, seed=seed + 1))[0]
     assert abs(np.corrcoef(noise.ravel(), other.ravel())[0, 1]) < h.Z / 32
+    # Nor is that of neighbours, as if the seed had moved the noise along.
+    assert abs(np.corrcoef(noise[:, 1:].ravel(), other[:, :-1].ravel())[0, 1]) < h.Z / 31
+    assert abs(np.corrcoef(noise[:, :-1].ravel(), other[:, 1:].ravel())[0, 1]) < h.Z / 31
+
+
+@pytest.mark.parametrize("weight", [0, 1])
+def test_seeds_catch_noise_that_stays_or_moves(weight, monkeypatch):
+    """The mutants forget the seed, or add it to the number of the pixel."""
+    monkeypatch.setattr(numbers, "hashed_pixel", lambda px, py, width, seed: mix((py * width + px + weight * seed).astype(np.uint32)))
+    with pytest.raises(AssertionError):
+        test_every_integer_is_a_seed(1)

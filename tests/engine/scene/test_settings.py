@@ -53,6 +53,19 @@ def test_a_border_lies_inside_the_frame(border):
         Settings(width=8, height=8, border=border)
 
 
+@pytest.mark.parametrize("value", [(0, 0), (4, 4), (5, 4), (-1, 4), (0, 9), (0, 4, 8), (0.0, 4), (False, True)], ids=str)
+def test_a_range_of_samples_lies_inside_all(value):
+    with pytest.raises(SceneError, match=r"setting sample_range is .* of 8 samples and not empty"):
+        Settings(samples=8, sample_range=value)
+
+
+def test_a_range_of_samples_cannot_decide_what_is_divided():
+    assert Settings(samples=8, sample_range=[2, 5]).rendered_samples == (2, 5)
+    assert Settings(samples=8).rendered_samples == (0, 8)
+    with pytest.raises(SceneError, match="all samples decide together"):
+        Settings(samples=8, sample_range=(0, 4), adaptive_threshold=0.1)
+
+
 def test_numpy_integers_are_whole_numbers_or_refused_by_name():
     """Never silently something else."""
     try:
