@@ -40,15 +40,16 @@ class GlanzCaptureEngine(bpy.types.RenderEngine):
 
     def _export(self, depsgraph):
         settings = settings_of(depsgraph.scene_eval, depsgraph.view_layer_eval, **self.overrides)
-        camera = self.camera_override
         views = [view.name for view in depsgraph.scene.render.views if view.use] if depsgraph.scene.render.use_multiview else []
         self.active_view_set(views[0] if views else "")
-        scene, warnings = export_scene(
-            depsgraph, settings, camera, camera and self.camera_model_matrix(camera), camera and self.camera_shift_x(camera)
-        )
+        scene, warnings = export_scene(depsgraph, settings, self._camera, frame_set=self.frame_set)
         if len(views) > 1:
             warnings = (*warnings, f"only view '{views[0]}' is rendered, not: {', '.join(views[1:])}")
         return scene, settings, warnings
+
+    def _camera(self):
+        camera = self.camera_override
+        return camera, camera and self.camera_model_matrix(camera), camera and self.camera_shift_x(camera)
 
 
 def capture(frame=None, scene_name=None, view_layer=None, overrides=None):

@@ -112,6 +112,54 @@ class GLANZ_RENDER_PT_film(GlanzPanel, bpy.types.Panel):
         row.prop(settings, "filter_width")
 
 
+class GLANZ_RENDER_PT_motion_blur(GlanzPanel, bpy.types.Panel):
+    """Blender shows its own for Cycles and EEVEE only."""
+
+    bl_label = "Motion Blur"
+    bl_options = frozenset({"DEFAULT_CLOSED"})
+
+    def draw_header(self, context):
+        self.layout.prop(context.scene.render, "use_motion_blur", text="")
+
+    def draw(self, context):
+        render = context.scene.render
+        column = self.column()
+        column.active = render.use_motion_blur
+        owner = render if hasattr(render, "motion_blur_position") else getattr(context.scene, "cycles", None)
+        if hasattr(owner, "motion_blur_position"):
+            column.prop(owner, "motion_blur_position", text="Position")
+        column.prop(render, "motion_blur_shutter", text="Shutter")
+        column.prop(context.scene.glanz, "motion_steps")
+
+
+class GLANZ_OBJECT_PT_motion_blur(GlanzPanel, bpy.types.Panel):
+    """What Cycles stores with each object; Blender shows it for Cycles only."""
+
+    bl_label = "Motion Blur"
+    bl_context = "object"
+    bl_options = frozenset({"DEFAULT_CLOSED"})
+
+    @classmethod
+    def poll(cls, context):
+        is_rendered = context.object is not None and context.object.type in _BLURRED
+        return super().poll(context) and is_rendered and hasattr(getattr(context.object, "cycles", None), "use_motion_blur")
+
+    def draw_header(self, context):
+        self.layout.active = context.scene.render.use_motion_blur
+        self.layout.prop(context.object.cycles, "use_motion_blur", text="")
+
+    def draw(self, context):
+        own = context.object.cycles
+        column = self.column()
+        column.active = context.scene.render.use_motion_blur and own.use_motion_blur
+        column.prop(own, "motion_steps")
+        if context.object.type != "CAMERA":
+            column.prop(own, "use_deform_motion")
+
+
+_BLURRED = frozenset({"MESH", "CURVE", "SURFACE", "FONT", "META", "CAMERA", "EMPTY"})
+
+
 class GLANZ_RENDER_PT_performance(GlanzPanel, bpy.types.Panel):
     bl_label = "Performance"
     bl_options = frozenset({"DEFAULT_CLOSED"})
@@ -195,6 +243,8 @@ _CLASSES = (
     GLANZ_RENDER_PT_sampling,
     GLANZ_RENDER_PT_light_paths,
     GLANZ_RENDER_PT_film,
+    GLANZ_RENDER_PT_motion_blur,
+    GLANZ_OBJECT_PT_motion_blur,
     GLANZ_RENDER_PT_performance,
     GLANZ_VIEWLAYER_PT_passes,
     GLANZ_VIEWLAYER_PT_override,

@@ -144,6 +144,17 @@ class GlanzSceneSettings(bpy.types.PropertyGroup):
         max=65536,
         subtype="PIXEL",
     )
+    motion_steps: IntProperty(
+        name="Deformation Steps",
+        description=(
+            "Shapes that a mesh which deforms takes while the shutter is open; what only moves is blurred without steps. "
+            "More are smoother, and each takes the memory of the mesh once more"
+        ),
+        default=8,
+        min=1,
+        soft_max=64,
+        max=1024,
+    )
 
 
 class GlanzViewLayerSettings(bpy.types.PropertyGroup):

@@ -2,6 +2,7 @@
 
 from contextlib import closing, suppress
 from dataclasses import replace
+from functools import partial
 
 import bpy
 
@@ -42,7 +43,7 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
     def _render(self, depsgraph):
         backend.load_or_raise()
         from ..engine import metadata, render
-        from .export import export_scene, export_view
+        from .export import export_views
         from .results import make_room, stamp, write_tile
         from .settings import settings_of
 
@@ -51,16 +52,14 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
         views = make_room(self, settings, layer)
         self.update_stats("", "Exporting the scene")
         warnings = Warnings(self)
-        scene, notes = export_scene(depsgraph, settings, *self._camera(views[0]), self._check)
+        scenes, notes = export_views(depsgraph, settings, [partial(self._camera, view) for view in views], self._check, self.frame_set)
         warnings.show(notes)
-        stamp(self, metadata(scene, settings))
+        stamp(self, metadata(scenes[0], settings))
         self.update_stats("", "Preparing the scene")
         status = Status(self, settings.samples)
-        for number, view in enumerate(views):
-            if number:
-                # The eyes differ in their camera, and in their noise, or it would seem to float in depth.
-                camera = export_view(depsgraph, settings, *self._camera(view))
-                scene, settings = replace(scene, camera=camera), replace(settings, seed=settings.seed + 1)
+        for number, (view, scene) in enumerate(zip(views, scenes, strict=True)):
+            # The eyes differ in their camera, and in their noise, or it would seem to float in depth.
+            settings = replace(settings, seed=settings.seed + bool(number))
             # Closing the generator joins its threads, so none is left when Blender goes on, whatever happens here.
             with closing(render(scene, settings)) as progress:
                 for step in progress:

@@ -22,6 +22,7 @@ _OWN = (
     "adaptive_threshold",
     "adaptive_levels",
     "tile_size",
+    "motion_steps",
 )
 """Read from `scene.glanz`; the names are the same on both sides."""
 

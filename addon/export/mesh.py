@@ -14,12 +14,29 @@ def export_mesh(mesh, name):
     flat = is_flat(mesh)
     return Mesh(
         name=name,
-        vertices=_columns(mesh.vertices, "co", np.float32),
+        vertices=vertices(mesh),
         triangles=_columns(triangles, "vertices", np.int32),
-        normals=np.zeros((3, 0)) if flat else _columns(mesh.corner_normals, "vector", np.float32),
+        normals=np.zeros((3, 0)) if flat else corner_normals(mesh),
         normal_indices=np.zeros((3, 0)) if flat else _columns(triangles, "loops", np.int32),
         material_indices=material_indices(triangles),
     )
+
+
+def vertices(mesh):
+    """(3, V) float32 [m]."""
+    return _columns(mesh.vertices, "co", np.float32)
+
+
+def corner_normals(mesh):
+    """(3, L) float32, a normal for each corner of each face."""
+    return _columns(mesh.corner_normals, "vector", np.float32)
+
+
+def corners(mesh):
+    """(L,) the vertex of each corner of each face: what the mesh is made of, whatever its shape."""
+    result = np.empty(len(mesh.loops), np.int32)
+    mesh.loops.foreach_get("vertex_index", result)
+    return result
 
 
 def is_flat(mesh):

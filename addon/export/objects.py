@@ -9,6 +9,7 @@ from ...engine import GlanzError, Object, SceneError
 from .light import export_light
 from .material import export_material, is_volume_only
 from .mesh import export_mesh
+from .motion import STILL
 
 POLL_EVERY = 256
 """Instances between two questions whether to stop."""
@@ -34,14 +35,15 @@ class _Placed:
     materials: tuple
 
 
-def export_objects(depsgraph, findings, material_override=None, check=lambda: None):
+def export_objects(depsgraph, findings, material_override=None, check=lambda: None, tracks=STILL):
     """(objects, lights): engine values for every instance of `depsgraph`, tuples.
 
     Meshes are shared by data-block, so ten thousand instances cost one mesh. `material_override`, if any, replaces all
-    materials. `check` is called now and then and may raise to stop. Raises SceneError naming the object that failed.
+    materials. `check` is called now and then and may raise to stop. `tracks` is told who is there, and moves them, see
+    `motion`. Raises SceneError naming the object that failed.
     """
     parts = _Parts(findings, material_override)
-    placed, matrices, lights = [], [], []
+    placed, matrices, identities, lights = [], [], [], []
     for i, instance in enumerate(depsgraph.object_instances):
         if i % POLL_EVERY == 0:
             check()
@@ -49,15 +51,20 @@ def export_objects(depsgraph, findings, material_override=None, check=lambda: No
         ob, matrix = instance.object, np.array(instance.matrix_world, np.float64)
         try:
             if ob.type == "LIGHT":
-                lights.append(_placed_light(ob, matrix, findings))
+                light = _placed_light(ob, matrix, findings)
+                if light is not None:
+                    lights.append(light)
+                    tracks.start_light(instance, matrix, light)
             elif instance.show_self and (part := parts.of(ob)):
                 placed.append(part)
                 matrices.append(matrix)
+                identities.append(tracks.start(instance, matrix, part.mesh))
         except GlanzError:
             raise
         except Exception as error:
             raise SceneError(f"object '{ob.name}' cannot be exported: {type(error).__name__}: {error}") from error
-    return _placed_objects(placed, matrices, findings), tuple(light for light in lights if light is not None)
+    objects = _placed_objects(placed, matrices, findings)
+    return tracks.moved(identities, objects), tuple(lights)
 
 
 def _placed_light(ob, matrix, findings):
@@ -68,9 +75,9 @@ def _placed_light(ob, matrix, findings):
 
 
 def _placed_objects(parts, matrices, findings):
-    """The objects whose matrices leave something to see."""
+    """The objects, None where the matrix leaves nothing to see."""
     if not parts:
-        return ()
+        return []
     matrices = np.stack(matrices)
     finite = is_placed(matrices)
     visible = finite & has_faces(matrices)
@@ -78,11 +85,10 @@ def _placed_objects(parts, matrices, findings):
         if not is_visible:
             cause = "the scale leaves no surface" if is_finite else "the transform is not finite"
             findings.note(f"{cause}, so it is left out", f"object '{part.name}'")
-    return tuple(
-        Object(name=part.name, mesh=part.mesh, world_from_object=matrix, materials=part.materials)
+    return [
+        Object(name=part.name, mesh=part.mesh, world_from_object=matrix, materials=part.materials) if is_visible else None
         for part, matrix, is_visible in zip(parts, matrices, visible, strict=True)
-        if is_visible
-    )
+    ]
 
 
 def is_placed(matrices):

@@ -1,48 +1,62 @@
 """The whole scene of a render depsgraph as the engine's value."""
 
+from contextlib import nullcontext
+
 from ...engine import Scene
 from .camera import export_camera
 from .findings import Findings
+from .motion import STILL, CameraTrack, Shutter, Tracks
 from .objects import export_objects
 from .world import export_world
 
 
-def export_scene(depsgraph, settings, camera=None, matrix=None, shift_x=None, check=lambda: None):
-    """(scene, warnings): the engine's `Scene` for an evaluated `depsgraph`, and a line for each thing that is not as in Blender.
+def export_scene(depsgraph, settings, view=None, check=lambda: None, frame_set=None):
+    """(scene, warnings): the engine's `Scene` of one view of an evaluated `depsgraph`; see `export_views`."""
+    scenes, warnings = export_views(depsgraph, settings, (view,), check, frame_set)
+    return scenes[0], warnings
 
-    settings         the engine's `Settings`, for the size of the frame
-    camera           evaluated camera object; None: the scene's
-    matrix, shift_x  replace the camera's own, see `export_camera`
-    check            called now and then; may raise to stop the export
+
+def export_views(depsgraph, settings, views, check=lambda: None, frame_set=None):
+    """(scenes, warnings): the engine's `Scene` for each view of an evaluated `depsgraph`, and what is not as in Blender, in lines.
+
+    settings   the engine's `Settings`, for the size of the frame
+    views      functions that say (evaluated camera object, matrix, horizontal shift), see `export_camera`, as Blender has them at
+               the time of the call; None: the scene's own camera. The scenes differ in nothing but their cameras
+    check      called now and then; may raise to stop the export
+    frame_set  goes to (frame, fraction of a frame), for motion blur; the frame is restored. None: nothing is blurred
     Raises SceneError naming the object for which no picture is possible.
     """
     findings = Findings()
-    scene = depsgraph.scene_eval
-    view_layer = depsgraph.view_layer_eval
-    # The camera first: where there is none, no one should wait for the meshes.
-    camera = export_view(depsgraph, settings, camera, matrix, shift_x)
-    _note_ignored(scene, findings)
-    override = _evaluated(view_layer.material_override, depsgraph)
-    objects, lights = export_objects(depsgraph, findings, override, check)
-    world = _evaluated(getattr(view_layer, "world_override", None) or scene.world, depsgraph)
-    result = Scene(
-        name=scene.name,
-        camera=camera,
-        objects=objects,
-        lights=lights,
-        world=export_world(world, findings),
+    shutter = Shutter.of(depsgraph, frame_set, findings)
+    with shutter or nullcontext():
+        scene = depsgraph.scene_eval
+        # The cameras first: where there is none, no one should wait for the meshes.
+        cameras = [_camera_track(depsgraph, settings, view) for view in views]
+        _note_ignored(scene, findings)
+        override = _evaluated(depsgraph.view_layer_eval.material_override, depsgraph)
+        tracks = Tracks(shutter, depsgraph, cameras, findings) if shutter else STILL
+        world = _evaluated(getattr(depsgraph.view_layer_eval, "world_override", None) or scene.world, depsgraph)
+        world = export_world(world, findings)
+        # Last, for to see what moves Blender has to leave the frame.
+        objects, lights = export_objects(depsgraph, findings, override, check, tracks)
+    scenes = tuple(
+        Scene(name=scene.name, camera=camera.moved(shutter, findings), objects=objects, lights=lights, world=world) for camera in cameras
     )
-    return result, findings.lines()
+    return scenes, findings.lines()
+
+
+def _camera_track(depsgraph, settings, view):
+    scene = depsgraph.scene_eval
+
+    def export():
+        ob, matrix, shift_x = view() if view else (None, None, None)
+        return export_camera(ob or scene.camera, scene.render, settings.width, settings.height, matrix, shift_x)
+
+    return CameraTrack(scene.camera, export)
 
 
 def _is_spherical(camera):
     return bool(camera and camera.type == "CAMERA" and camera.data.type == "PANO" and camera.data.stereo.use_spherical_stereo)
-
-
-def export_view(depsgraph, settings, camera=None, matrix=None, shift_x=None):
-    """The camera of another view of the same scene; as in `export_scene`."""
-    scene = depsgraph.scene_eval
-    return export_camera(camera or scene.camera, scene.render, settings.width, settings.height, matrix, shift_x)
 
 
 def _evaluated(datablock, depsgraph):
@@ -53,7 +67,6 @@ def _note_ignored(scene, findings):
     """Note the scene's render settings that Glanz does not follow."""
     render, name = scene.render, f"scene '{scene.name}'"
     for is_on, what in (
-        (render.use_motion_blur, "motion blur is not rendered"),
         (render.film_transparent, "the film is not transparent, the world is always seen"),
         (render.use_freestyle, "freestyle lines are not rendered"),
         (render.use_multiview and _is_spherical(scene.camera), "spherical stereo is not rendered, each eye stays where it is"),

@@ -18,11 +18,11 @@ def scene():
 
 def test_scene_settings_and_warnings_are_those_of_the_file(scene):
     scene.glanz.samples = 3
-    scene.render.use_motion_blur = True
+    scene.render.film_transparent = True
     value, settings, warnings = capture()
     assert [o.name for o in value.objects] == ["Tetrahedron"]
     assert (settings.width, settings.height, settings.samples) == (32, 16, 3)
-    assert warnings == ("motion blur is not rendered: scene 'Scene'",)
+    assert warnings == ("the film is not transparent, the world is always seen: scene 'Scene'",)
 
 
 def test_overrides_and_the_camera_agree(scene):

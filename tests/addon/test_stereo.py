@@ -146,3 +146,17 @@ def test_outside_of_blender_the_first_view_is_rendered_and_the_others_are_named(
     scene, _, warnings = capture()
     assert warnings == ("only view 'left' is rendered, not: right",)
     assert scene.camera.position[0] == pytest.approx(-EYES / 2)
+
+
+def test_both_eyes_move_with_the_camera(stereo, monkeypatch, tmp_path):
+    """Each has three keys of its own, as far apart as they are at rest."""
+    scene = bpy.context.scene
+    scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, 1.0
+    for frame in (scene.frame_current - 2, scene.frame_current + 2):
+        scene.camera.location.y = frame
+        scene.camera.keyframe_insert("location", frame=frame)
+    scene.frame_set(scene.frame_current)
+    left, right = (shot.camera.motion for shot, _ in rendered(monkeypatch, tmp_path))
+    assert left.shape == right.shape == (3, 4, 4)
+    assert left[2, 1, 3] - left[0, 1, 3] > 0.9
+    np.testing.assert_allclose((right - left)[:, :3, 3], [(EYES, 0, 0)] * 3, atol=1e-5)
