@@ -167,7 +167,7 @@ def test_cells_weigh_the_same_under_every_filter(plugin, monkeypatch):
     assert np.abs(flat - 0.75).max() <= 3e-7
 
 
-def errors(levels, seeds=6, side=24):
+def errors(levels, seeds=4, side=24):
     """RMSE of pixels that the edge goes through: adaptive, and with as many samples as there are smallest cells."""
     truth = covered(side)
     crossed = (truth > 0) & (truth < 1)
