@@ -11,6 +11,7 @@ from .bsdfs.lambert import Lambert
 from .bsdfs.mirror import Mirror
 from .bsdfs.phong import Phong
 from .bsdfs.phong_lecture import PhongLecture
+from .bsdfs.transparent import Transparent
 from .cameras.orthographic import OrthographicCamera
 from .cameras.panorama import PanoramaCamera
 from .cameras.perspective import PerspectiveCamera
@@ -64,6 +65,7 @@ __all__ = [
     "SpotLight",
     "SunLight",
     "Tile",
+    "Transparent",
     "World",
     "metadata",
     "read_scene",

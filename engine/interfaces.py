@@ -11,7 +11,9 @@ class Lobe(Protocol):
     """What all BSDFs have in common; `Bsdf` and `SpecularBsdf` say how they scatter.
 
     is_specular  light leaves in single directions, and shadow rays cannot find it
-    transmits    light may pass the surface
+    transmits    light may pass the surface; such a BSDF has a `transmittance` (r, g, b)
+
+    A specular BSDF that light passes without a change of direction also says `is_straight = True` (see `is_straight`).
     """
 
     key: str
@@ -77,6 +79,11 @@ class SpecularBsdf(Lobe, Protocol):
         angle nothing is refracted. A table `k` whose `ior` is (3, N), an index for each channel, gets a refracted
         direction for each.
         """
+
+
+def is_straight(bsdf):
+    """Whether light passes `bsdf` (class or value) straight on: shadow rays, too, and light is found beyond as if it came direct."""
+    return getattr(bsdf, "is_straight", False)
 
 
 @runtime_checkable
@@ -221,7 +228,8 @@ class Integrator(Protocol):
 
     is_complete     it finds all light, so its pictures are those of path tracing but for the noise
     samples_lights  shadow rays look for lights; else only scattered rays find them
-    tints_glass     shadow rays pass specular surfaces that transmit, weakened by their transmittance
+    tints_glass     shadow rays pass specular surfaces that transmit, weakened by their transmittance; and what passes
+                    straight on is a ray of its own, as all branches of specular lobes are
     on_surface      the stages (plan, rays, surface, reflection, film) that do it
     """
 

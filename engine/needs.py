@@ -17,6 +17,8 @@ ABSORPTION = "absorption"
 NESTED_MEDIA = "nested media"
 CAMERA_MOTION = "camera motion"
 OBJECT_MOTION = "object motion"
+TRANSPARENCY = "transparency"
+TINTED_SHADOWS = "tinted shadows"
 
 MEANING = {
     GEOMETRY: "triangles to intersect",
@@ -33,6 +35,8 @@ MEANING = {
     NESTED_MEDIA: "bodies that let light in and may share space, so that boundaries are between two media",
     CAMERA_MOTION: "a camera that moves while the shutter is open",
     OBJECT_MOTION: "objects that move or deform while the shutter is open, met at each path's own time",
+    TRANSPARENCY: "surfaces that rays may pass straight on",
+    TINTED_SHADOWS: "surfaces that weaken light on its straight way to others instead of blocking it",
 }
 
 

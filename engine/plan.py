@@ -1,33 +1,37 @@
 """From what a scene needs to what is run: tuples of stages, empty for what is absent."""
 
 from dataclasses import dataclass
+from functools import partial
 
 from . import needs
 from .arrays import Columns, columns
+from .interfaces import is_straight
 from .registry import FILTERS, INTEGRATORS, PASSES, SAMPLERS
 from .scene.settings import Settings
 from .wavefront import media
 from .wavefront.adaptive import AdaptiveTile
 from .wavefront.camera_rays import bladed_aperture, round_aperture, through_the_lens, through_the_pinhole
-from .wavefront.clip import clip_row, meet_in_range, start_in_range
+from .wavefront.clip import clip_row, start_in_range, to_the_end_of_range
 from .wavefront.emission import add_emission
-from .wavefront.escape import add_background, add_environment, add_light_hits
+from .wavefront.escape import add_background, add_environment, add_light_hits, add_light_hits_beyond
 from .wavefront.motion import (
     TIME,
     add_moving_emission,
     closest_at_time,
     follow_camera,
     interact_at_time,
-    meet_in_moving_range,
     occluded_at_time,
     seen_from_camera,
     start_time,
+    to_the_end_of_moving_range,
 )
 from .wavefront.numbers import Numbers, one_of_the_lobes, only_lobe
+from .wavefront.passing import travel_through, unblocked_through
 from .wavefront.tiles import EvenTile
-from .wavefront.visibility import closest, interact_at_rest, meet_nearest, occluded, seen_at_rest, unblocked
+from .wavefront.visibility import all_of_it, all_the_way, closest, interact_at_rest, occluded, seen_at_rest, travel, unblocked
 from .world.compile import CompiledWorld, compile_world
 from .world.interaction import flat_normals, leave_in_front, leave_on_either_side, smooth_normals
+from .world.passing import Passing
 from .world.poses import Path, Poses
 
 
@@ -40,10 +44,14 @@ class Plan:
     camera_poses       where the camera is over the time that the shutter is open, see `world.poses`; None: it stands still
     on_camera_rays     stages (plan, rays) before camera rays are traced
     closest, occluded  what lies along rays (plan, carried, o, d, limit), see `wavefront.visibility`
-    meet               the hits (plan, rays) of a batch
+    reach              how far (plan, rays) rays go
+    travel             the hits (plan, rays, film) of a batch, see `wavefront.visibility`
     unblocked          the shadow rays (plan, rays, o, d, limit, candidate) that arrive
+    left               the share of light (plan, rays, t) that is left after a way t
     seen_from_camera   points (plan, rays, p) of render space as `camera` and `camera_k` describe them
     on_rays            stages (plan, rays, hits, film) for every batch: light met along the way
+    on_rays_beyond     the same beyond a surface that rays have passed, see `wavefront.passing`
+    on_passing         stages (plan, rays, surface) that renew what rays carry when they pass a surface straight on
     interact           the surface (plan, rays, hits) that a batch met
     adjust_surface     stages (plan, rays, surface) -> surface: what changes its normals
     adjust_reflection  stages (plan, rays, surface, reflection) -> reflection: what changes its lobes
@@ -68,10 +76,14 @@ class Plan:
     on_camera_rays: tuple
     closest: object
     occluded: object
-    meet: object
+    reach: object
+    travel: object
     unblocked: object
+    left: object
     seen_from_camera: object
     on_rays: tuple
+    on_rays_beyond: tuple
+    on_passing: tuple
     interact: object
     adjust_surface: tuple
     adjust_reflection: tuple
@@ -89,14 +101,18 @@ class Plan:
     @classmethod
     def of(cls, scene, settings, requirements):
         """Compile `scene` and keep what `requirements` ask for."""
-        bsdfs = requirements.plugins("bsdf")
         smooth = needs.SMOOTH_NORMALS in requirements
         integrator = INTEGRATORS[settings.integrator]
         absorbs, is_nested = needs.ABSORPTION in requirements, needs.NESTED_MEDIA in requirements
         has_media = absorbs or is_nested
         has_choice, has_environment = needs.LIGHT_CHOICE in requirements, needs.ENVIRONMENT in requirements
         steps = settings.motion_steps if needs.OBJECT_MOTION in requirements else 0
-        world = compile_world(scene, bsdfs, smooth, has_choice, integrator.samples_lights, has_media, has_environment, steps)
+        passes = needs.TRANSPARENCY in requirements and not integrator.tints_glass
+        tints = needs.TINTED_SHADOWS in requirements
+        passing_of = partial(Passing.of, tints_glass=integrator.tints_glass) if passes or tints else None
+        # What rays pass on their way is no lobe for them to choose where they end.
+        bsdfs = tuple(bsdf for bsdf in requirements.plugins("bsdf") if not (passes and is_straight(bsdf)))
+        world = compile_world(scene, bsdfs, smooth, has_choice, integrator.samples_lights, has_media, has_environment, steps, passing_of)
         can_reflect = bool(world.materials.lobes)
         on_rays = (
             *((media.add_light_hits_in_media if absorbs else add_light_hits,) if needs.LIGHT_HITS in requirements else ()),
@@ -135,10 +151,14 @@ class Plan:
             ),
             closest=media.through_media(nearest) if is_nested else nearest,
             occluded=media.occluded_in_media(blocked, media.through_media(nearest)) if is_nested else blocked,
-            meet=(meet_in_moving_range if follows else meet_in_range) if is_clipped else meet_nearest,
-            unblocked=media.absorbed(unblocked) if absorbs else unblocked,
+            reach=(to_the_end_of_moving_range if follows else to_the_end_of_range) if is_clipped else all_the_way,
+            travel=travel_through if passes else travel,
+            unblocked=unblocked_through if tints else media.absorbed(unblocked) if absorbs else unblocked,
+            left=media.left_by_media if absorbs else all_of_it,
             seen_from_camera=seen_from_camera if follows else seen_at_rest,
             on_rays=on_rays,
+            on_rays_beyond=tuple(_BEYOND.get(stage, stage) for stage in on_rays),
+            on_passing=(media.pass_boundary,) if has_media else (),
             interact=interact_at_time if world.movers else interact_at_rest,
             adjust_surface=(),
             adjust_reflection=(media.relative_indices,) if is_nested else (),
@@ -154,3 +174,11 @@ class Plan:
             # After the last bounce scattered rays share the search for direct light with shadow rays, where they can find any.
             last_depth=settings.max_depth + bool({*on_rays} - {media.absorb} and integrator.is_complete) if can_reflect else 0,
         )
+
+
+_BEYOND = {
+    add_light_hits: add_light_hits_beyond,
+    media.add_light_hits_in_media: media.add_light_hits_in_media_beyond,
+    media.absorb: media.absorb_beyond,
+}
+"""The stages that have to know where a ray has passed a surface last."""

@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass
 
 from . import needs
+from .interfaces import is_straight
 from .registry import BSDFS, CAMERAS, FILTERS, INTEGRATORS, LIGHTS, PASSES, SAMPLERS
 from .scene.bodies import inside_of, sharing_space
 
@@ -25,7 +26,8 @@ class Requirements:
         def ask(need, name):
             found.setdefault(need, {})[name] = True
 
-        ask(needs.of_plugin("integrator", INTEGRATORS[settings.integrator]), "settings")
+        integrator = INTEGRATORS[settings.integrator]
+        ask(needs.of_plugin("integrator", integrator), "settings")
         ask(needs.of_plugin("sampler", SAMPLERS[settings.sampler]), "settings")
         ask(needs.of_plugin("filter", FILTERS[settings.pixel_filter]), "settings")
         for key in settings.passes:
@@ -56,8 +58,13 @@ class Requirements:
                 ask(needs.SMOOTH_NORMALS, o.name)
             for material in o.materials:
                 for lobe in material.lobes:
-                    if any(lobe.albedo()):
-                        ask(needs.of_plugin("bsdf", type(lobe)), material.name)
+                    if not any(lobe.albedo()):
+                        continue
+                    ask(needs.of_plugin("bsdf", type(lobe)), material.name)
+                    if is_straight(lobe) and not integrator.tints_glass:
+                        ask(needs.TRANSPARENCY, material.name)
+                    if integrator.samples_lights and lobe.transmits and (is_straight(lobe) or integrator.tints_glass):
+                        ask(needs.TINTED_SHADOWS, material.name)
                 if any(material.emission):
                     ask(needs.EMISSIVE_MESHES, o.name)
         shining = [light for light in scene.lights if any(light.power())]

@@ -4,17 +4,30 @@ import math
 
 import numpy as np
 
-from glanz.engine import AreaLight, EnvironmentMap, Lambert, Material, PerspectiveCamera, Phong, PointLight, SpotLight, SunLight, World
+from glanz.engine import (
+    AreaLight,
+    EnvironmentMap,
+    Lambert,
+    Material,
+    PerspectiveCamera,
+    Phong,
+    PointLight,
+    SpotLight,
+    SunLight,
+    Transparent,
+    World,
+)
 from glanz.tests import helpers as h
 
 SHINY = Material(name="shiny", lobes=(Lambert((0.2, 0.3, 0.1)), Phong((0.5, 0.4, 0.6), 20.0)))
 SHARP = Material(name="sharp", lobes=(Phong((0.7, 0.7, 0.7), 1e4),))
+VEIL = Material(name="veil", lobes=(Transparent((0.6, 0.5, 0.3)), Lambert((0.2, 0.3, 0.3))))
 GLOWING = Material(name="glowing", lobes=(Lambert((0.3, 0.3, 0.3)),), emission=(2.0, 1.0, 0.5))
 SKY = (np.random.default_rng(1).random((3, 8, 16)) ** 8).astype(np.float32)
 
 
 def everything(scale=1.0, offset=(0.0, 0.0, 0.0), power=1.0, world=0.1):
-    """A floor, a smooth and a flat sphere, a box, something that glows, one light of each kind, light and a picture around it all.
+    """A floor, a smooth and a flat sphere, a box, something that glows, a veil, one light of each kind, light and a picture around it all.
 
     All coordinates are multiples of 2^-10, so `offset` by such and `scale` by a power of two are exact; powers that
     belong to lengths (intensities) grow with scale^2, so that the picture stays.
@@ -35,6 +48,7 @@ def everything(scale=1.0, offset=(0.0, 0.0, 0.0), power=1.0, world=0.1):
         h.thing(lattice(h.icosphere(1, 0.5, (1.0, 0.5, 0.5), name="flat")), SHARP),
         h.thing(lattice(h.box((0.25, -1.25, 0), (0.75, -0.75, 0.5))), h.lambert((0.2, 0.5, 0.8), "blue")),
         h.thing(lattice(h.box((-0.75, -1.5, 0.25), (-0.5, -1.25, 0.375), name="glow")), replaced_emission(power)),
+        h.thing(lattice(h.quad((0.75, -2.0, 0.75), (1.5, 0.25, 0.5), (0.25, 0.5, 1.25), name="veil")), VEIL),
     ]
     intensity = 20 * power * scale**2
     lights = [

@@ -17,6 +17,7 @@ class Settings:
     sample_range   (first, end) of the samples that are rendered, the end excluded; empty: all. The mean of parts, by their samples,
                    is the whole
     max_depth      bounces: 0 is direct light only (Cycles' `max_bounces`, the lecture's recursion depth)
+    max_transparent  transparent surfaces that light passes between two bounces; the next one absorbs what it should let pass
     branches       rays that distributed ray tracing splits into at the first hit; a quarter of them at each further one
     min_contribution  what a ray must count at least to be followed in Whitted's and distributed ray tracing, in [0, 1]: epsilon_r
     light_falloff  whether the illumination model of 'whitted_phong' lets light fall off with distance
@@ -39,6 +40,7 @@ class Settings:
     samples: int = 64
     sample_range: tuple = ()
     max_depth: int = 8
+    max_transparent: int = 64
     branches: int = 16
     min_contribution: float = 0.0
     light_falloff: bool = True
@@ -59,6 +61,7 @@ class Settings:
             ("height", 1, 65536),
             ("samples", 1, 2**24),
             ("max_depth", 0, 2**16),
+            ("max_transparent", 0, 1024),
             ("branches", 1, 2**12),
             ("adaptive_levels", 1, 6),
             ("tile_size", 0, 65536),

@@ -2,8 +2,6 @@
 
 import numpy as np
 
-from .visibility import meet_nearest
-
 
 def clip_row(camera, scale):
     """The clip range of `camera` in render space of `scale` [m^-1], as {column: number}; both along the axis."""
@@ -16,11 +14,9 @@ def start_in_range(plan, rays):
     rays.o[...] += rays.d * (k.clip_start * plan.camera.ray_per_depth(k, rays.d))
 
 
-def meet_in_range(plan, rays):
-    """`Hits` of a batch of rays, of which camera rays end where the clip range does."""
-    if rays.depth:
-        return meet_nearest(plan, rays)
-    return plan.closest(plan, rays.carried, rays.o, rays.d, range_along(plan, rays.d))
+def to_the_end_of_range(plan, rays):
+    """How far rays go, (N,): camera rays end where the clip range does, the others (None) nowhere."""
+    return None if rays.depth else range_along(plan, rays.d)
 
 
 def range_along(plan, d):

@@ -33,11 +33,26 @@ def add_light_hits(plan, rays, hits, film):
         film.add(rays.slot.take(lanes), L)
 
 
+def add_light_hits_beyond(plan, rays, hits, film):
+    """The same beyond the surface that rays have passed last."""
+    for lanes, _, L in light_hits_beyond(plan, rays, hits):
+        film.add(rays.slot.take(lanes), L)
+
+
 def light_hits(plan, rays, hits):
     """For each light object that rays meet: which rays (M,), how far away (M,), and the radiance (3, M) that counts."""
+    return _lamps(plan, rays, lambda t: t < hits.t)
+
+
+def light_hits_beyond(plan, rays, hits):
+    """The same beyond the surface that rays have passed last: `rays.carried.start` (N,) is how far away it is."""
+    return _lamps(plan, rays, lambda t: (t < hits.t) & (t >= rays.carried.start))
+
+
+def _lamps(plan, rays, is_met):
     for lamp in plan.world.lights.hittable if rays.depth else plan.world.lights.visible:
         t, L, pdf = lamp.light.hit(lamp.k, rays.o, rays.d)
-        lanes = np.nonzero(t < hits.t)[0]
+        lanes = np.nonzero(is_met(t))[0]
         if not lanes.size:
             continue
         L = np.broadcast_to(L, rays.d.shape).take(lanes, axis=1) * rays.beta.take(lanes, axis=1)

@@ -27,9 +27,7 @@ def _trace(plan, rays, film, is_cancelled):
         if rays is None:
             stack.pop()
             continue
-        hits = plan.meet(plan, rays)
-        for add_light in plan.on_rays:
-            add_light(plan, rays, hits, film)
+        hits = plan.travel(plan, rays, film)
         if rays.depth > plan.settings.max_depth:
             continue
         rays, hits = _only_hits(rays, hits)

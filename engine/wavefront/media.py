@@ -14,7 +14,7 @@ import numpy as np
 from ..arrays import Columns
 from ..maths.vectors import dot
 from ..world.interaction import leave_on_either_side
-from .escape import light_hits
+from .escape import light_hits, light_hits_beyond
 from .records import Rays
 
 MOST_BOUNDARIES = 1024
@@ -147,6 +147,13 @@ def change_media(plan, rays, surface, scattered):
     _cross(scattered.carried.inside, lanes, row.take(lanes), surface.is_front.take(lanes))
 
 
+def pass_boundary(plan, rays, surface):
+    """The stage that counts the boundaries which rays pass straight on."""
+    row = plan.world.media.behind.take(surface.prim)
+    lanes = np.nonzero(row >= 0)[0]
+    _cross(rays.carried.inside, lanes, row.take(lanes), surface.is_front.take(lanes))
+
+
 def transmitted(plan, inside, t):
     """Beer's law: the share of light (3, N) that is left after the ways t (N,) through the media that are there.
 
@@ -166,6 +173,23 @@ def add_light_hits_in_media(plan, rays, hits, film):
     """`add_light_hits`, weakened on the way."""
     for lanes, t, L in light_hits(plan, rays, hits):
         film.add(rays.slot.take(lanes), L * transmitted(plan, rays.carried.inside.take(lanes, axis=1), t))
+
+
+def absorb_beyond(plan, rays, hits, film):
+    """`absorb` on the way from the surface that rays have passed last."""
+    absorb(plan, rays, dataclasses.replace(hits, t=hits.t - rays.carried.start), film)
+
+
+def add_light_hits_in_media_beyond(plan, rays, hits, film):
+    """`add_light_hits_in_media` beyond the surface that rays have passed last."""
+    for lanes, t, L in light_hits_beyond(plan, rays, hits):
+        way = t - rays.carried.start.take(lanes)
+        film.add(rays.slot.take(lanes), L * transmitted(plan, rays.carried.inside.take(lanes, axis=1), way))
+
+
+def left_by_media(plan, rays, t):
+    """The share of light (3, N) that media leave over the ways t (N,) of `rays`."""
+    return transmitted(plan, rays.carried.inside, t)
 
 
 def absorbed(unblocked):

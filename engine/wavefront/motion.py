@@ -30,12 +30,11 @@ def seen_from_camera(plan, rays, p):
     return plan.camera_poses.at(0, rays.carried.time).local_points(p).astype(np.float32)
 
 
-def meet_in_moving_range(plan, rays):
-    """As `clip.meet_in_range`, for a camera that moves."""
+def to_the_end_of_moving_range(plan, rays):
+    """As `clip.to_the_end_of_range`, for a camera that moves."""
     if rays.depth:
-        return visibility.meet_nearest(plan, rays)
-    d = plan.camera_poses.at(0, rays.carried.time).local_vectors(rays.d).astype(np.float32)
-    return plan.closest(plan, rays.carried, rays.o, rays.d, range_along(plan, d))
+        return None
+    return range_along(plan, plan.camera_poses.at(0, rays.carried.time).local_vectors(rays.d).astype(np.float32))
 
 
 def closest_at_time(plan, carried, o, d, limit=None):

@@ -57,7 +57,7 @@ class Rays:
             self.o.take(lanes, axis=1),
             self.d.take(lanes, axis=1),
             self.beta.take(lanes, axis=1),
-            self.pdf.take(lanes),
+            self.pdf.take(lanes) if self.depth else self.pdf,
             self.slot.take(lanes),
             self.key.take(lanes),
             self.sample.take(lanes),

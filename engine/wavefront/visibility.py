@@ -17,9 +17,22 @@ def occluded(plan, carried, o, d, limit):
     return plan.world.accel.occluded(o, d, limit)
 
 
-def meet_nearest(plan, rays):
-    """`Hits` of a batch of rays."""
-    return plan.closest(plan, rays.carried, rays.o, rays.d)
+def all_the_way(plan, rays):
+    """How far rays go: there is no limit."""
+    return
+
+
+def travel(plan, rays, film):
+    """`Hits` where a batch of rays ends; light met along the way goes into the film."""
+    hits = plan.closest(plan, rays.carried, rays.o, rays.d, plan.reach(plan, rays))
+    for add_light in plan.on_rays:
+        add_light(plan, rays, hits, film)
+    return hits
+
+
+def all_of_it(plan, rays, t):
+    """The share of light that is left after the ways t (N,) of `rays` through nothing."""
+    return 1
 
 
 def seen_at_rest(plan, rays, p):
@@ -37,10 +50,10 @@ def unblocked(plan, rays, o, d, limit, candidate):
 
     o, d (3, N) and limit (N,) are those of the shadow rays, one for each of `rays`.
     """
-    return np.nonzero(candidate & ~_blocked(plan, rays.carried, o, d, limit, candidate))[0], 1
+    return np.nonzero(candidate & ~blocked(plan, rays.carried, o, d, limit, candidate))[0], 1
 
 
-def _blocked(plan, carried, o, d, limit, candidate):
+def blocked(plan, carried, o, d, limit, candidate):
     """`plan.occluded` where `candidate` (N,); what it says elsewhere means nothing."""
     count = np.count_nonzero(candidate)
     if count * _MOST_SHARE > candidate.size * (_MOST_SHARE - 1):

@@ -15,6 +15,7 @@ from .lights import Lights
 from .materials import Materials
 from .media import Media
 from .movers import Movers, Moving
+from .passing import Passing
 from .placement import place
 
 FARTHEST = 1e12
@@ -59,6 +60,7 @@ class CompiledWorld:
     emitters    the patches that emit: the last ones of `lights`, made of the last ones of the triangles that stand still
     background  (3, 1) float32 [W m^-2 sr^-1]
     media       what is inside of bodies; None where nobody asks
+    passing     what passes surfaces straight on; None where nobody asks
     """
 
     frame: Frame
@@ -70,17 +72,21 @@ class CompiledWorld:
     emitters: Emitters
     background: np.ndarray
     media: Media | None
+    passing: Passing | None
     warnings: tuple
 
 
 # Corners may be anything; what is not finite after all is found by `_measure` and told.
 @np.errstate(over="ignore", invalid="ignore")
-def compile_world(scene, bsdfs, smooth, has_choice, samples_lights=True, has_media=False, has_environment=False, motion_steps=0):
+def compile_world(
+    scene, bsdfs, smooth, has_choice, samples_lights=True, has_media=False, has_environment=False, motion_steps=0, passing_of=None
+):
     """`scene` (validated) as a `CompiledWorld`.
 
     `bsdfs` are the lobes to make room for, `smooth` says that shading normals are wanted, `has_choice` that there may
     be more than one light, `samples_lights` that shadow rays look for them, `has_media` that it matters what is inside of
-    bodies, `has_environment` that the world has a picture that gives light. Deforming meshes take `motion_steps` shapes,
+    bodies, `has_environment` that the world has a picture that gives light, and `passing_of` (None: nothing passes) makes the
+    `Passing` of the materials. Deforming meshes take `motion_steps` shapes,
     and without any all is as at the middle of the shutter. Raises SceneError where the geometry does not fit into memory.
     """
     materials, row = _number_materials(scene)
@@ -135,6 +141,7 @@ def compile_world(scene, bsdfs, smooth, has_choice, samples_lights=True, has_med
         emitters=emitters,
         background=np.array(scene.world.radiance, np.float32)[:, None],
         media=Media.of(scene.objects, row, material, owner[keep], frame.scale) if has_media else None,
+        passing=passing_of(materials) if passing_of else None,
         warnings=warnings,
     )
 

@@ -9,7 +9,7 @@ from glanz.engine import Lens, PanoramaCamera, SceneError, render_image
 from glanz.engine.arrays import columns
 from glanz.engine.interfaces import Camera
 from glanz.engine.registry import CAMERAS
-from glanz.engine.wavefront.visibility import meet_nearest
+from glanz.engine.wavefront.visibility import all_the_way
 from glanz.tests import helpers as h, scenes
 
 each = pytest.mark.parametrize("plugin", CAMERAS.values(), ids=lambda p: p.key)
@@ -226,5 +226,5 @@ def test_what_cannot_be_is_refused_by_name(plugin, message):
 
 def test_without_a_clip_range_rays_are_met_as_before():
     plan = h.plan_of(scenes.everything(), h.settings())
-    assert plan.meet is meet_nearest
+    assert plan.reach is all_the_way
     assert plan.on_camera_rays == ()

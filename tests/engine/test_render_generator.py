@@ -8,7 +8,7 @@ import pytest
 
 from glanz.engine import GlanzError, Requirements, SceneError, render, render_image, rendering
 from glanz.engine.integrators.path import Path
-from glanz.engine.wavefront import direct, visibility
+from glanz.engine.wavefront import direct, passing, visibility
 from glanz.tests import helpers as h, scenes
 
 SETTINGS = h.settings(width=24, height=20, samples=4, max_depth=2, tile_size=8, threads=2)
@@ -90,15 +90,16 @@ def test_closing_stops_within_a_bounce(monkeypatch):
     started = threading.Event()
     after = []
     stop = threading.Event()
-    closest = visibility.interact
+    travel = visibility.travel
 
     def slow(*args):
         started.set()
         if stop.is_set():
             after.append(threading.current_thread().name)
-        return closest(*args)
+        return travel(*args)
 
-    monkeypatch.setattr(visibility, "interact", slow)
+    # At the beginning of every bounce, whatever rays pass on their way.
+    monkeypatch.setattr(passing, "travel", slow)
     generator = render(scenes.everything(), h.replaced(SETTINGS, width=128, height=128, samples=64, max_depth=30, tile_size=0, threads=1))
     for _ in generator:
         if started.is_set():

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from glanz.engine import AreaLight, Material, Phong, PointLight, SpotLight, SunLight
+from glanz.engine import AreaLight, Material, Phong, PointLight, SpotLight, SunLight, Transparent
 from glanz.engine.wavefront import direct, emission, escape, mis
 from glanz.engine.wavefront.mis import power_heuristic
 from glanz.tests import helpers as h
@@ -50,6 +50,19 @@ def test_every_way_finds_the_same_light(monkeypatch, name, material):
     """Welch's t over 144 pixels; detects 1 to 3 %. Each picture has numbers of its own."""
     lights, objects = LIGHTS[name]
     scene = h.receiver(lights, objects, material=material, distance=0.3, tilt=0.5)
+    images = {way: image_of(monkeypatch, way, scene, seed) for seed, way in enumerate(("shadow rays", "scattered rays", "both"))}
+    assert images["both"].mean() > 0
+    assert h.means_agree(images["shadow rays"], images["both"], floor=1e-4)
+    assert h.means_agree(images["scattered rays"], images["both"], floor=1e-4)
+
+
+@pytest.mark.parametrize("name", LIGHTS)
+def test_every_way_finds_the_same_light_behind_a_half_transparent_sheet(monkeypatch, name):
+    """By chance for scattered rays, by its share for shadow rays; the sheet reflects as well, which both ways know."""
+    lights, objects = LIGHTS[name]
+    veil = Material(name="veil", lobes=(Transparent((0.5, 0.5, 0.5)), *h.lambert(0.4).lobes))
+    sheet = h.thing(h.quad((0, 0, 0.4), (50, 0, 0.1), (0, 50, 0), name="sheet"), veil)
+    scene = h.receiver(lights, [*objects, sheet], material=MIXED, distance=0.3, tilt=0.5)
     images = {way: image_of(monkeypatch, way, scene, seed) for seed, way in enumerate(("shadow rays", "scattered rays", "both"))}
     assert images["both"].mean() > 0
     assert h.means_agree(images["shadow rays"], images["both"], floor=1e-4)

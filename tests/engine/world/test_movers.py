@@ -98,7 +98,7 @@ def test_a_surface_is_where_and_how_it_would_be_if_it_stood_there():
         surfaces = []
         for p in (plan, still):
             rays = batch(d, np.full(n, time))
-            hits = p.meet(p, rays)
+            hits = p.closest(p, rays.carried, rays.o, rays.d)
             lanes = np.nonzero(hits.prim >= 0)[0]
             assert lanes.size > n / 10
             surfaces.append((lanes, p.interact(p, rays.landed(lanes), hits.take(lanes)), p.world.frame.scale))
