@@ -68,7 +68,7 @@ def test_settings_are_drawn():
 )
 def test_settings_of_another_integrator_are_not_drawn(integrator, names):
     bpy.context.scene.glanz.integrator = integrator
-    assert set(_drawn("GLANZ_RENDER_PT_light_paths")) == {"max_depth"} | names
+    assert set(_drawn("GLANZ_RENDER_PT_light_paths")) == {"max_depth", "max_transparent"} | names
 
 
 def test_panoramas_can_be_edited():

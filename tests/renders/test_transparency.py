@@ -62,7 +62,9 @@ def is_weakened(values, truth):
     return all(h.mean_is(channel, E, floor=1e-5, absolute=1e-9) for channel, E in zip(values, truth, strict=True))
 
 
-WAYS = [(name, "path") for name in LIGHTS] + [(name, way) for name in ("area", "mesh", "wide sun") for way in ("path_blind", "path_naive")]
+WAYS = [(name, "path") for name in LIGHTS]
+WAYS += [(name, way) for name in ("area", "mesh", "wide sun") for way in ("path_blind", "path_naive")]
+WAYS += [("point", "whitted"), ("sun", "whitted"), ("point", "distributed"), ("area", "distributed")]
 """Light without a size is found by shadow rays alone."""
 
 
@@ -140,6 +142,13 @@ def test_a_card_shows_itself_and_what_is_behind_it():
     values = seen(looking_down([card], [SunLight()], world=0.25), samples=256, max_depth=0)
     # The world shines on the card from above and from below; what it reflects upwards comes from above.
     assert h.mean_is(values[0], 0.3 * (1 / math.pi + 0.25) + 0.5 * 0.25, floor=1e-6)
+
+
+def test_whitteds_rays_follow_what_a_card_reflects_and_what_it_lets_pass():
+    """Without a random number, so without noise; the world does not shine on dull surfaces."""
+    card = h.thing(h.quad((0, 0, 1)), clear(0.5, Lambert((0.5 * 0.6,) * 3)))
+    values = seen(looking_down([card], [SunLight()], world=0.25), samples=1, integrator="whitted")
+    np.testing.assert_allclose(values, 0.3 / math.pi + 0.5 * 0.25, rtol=1e-6)
 
 
 def test_what_glows_behind_what_glows_adds_up_in_every_sample():
