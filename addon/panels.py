@@ -86,6 +86,7 @@ class GLANZ_RENDER_PT_light_paths(GlanzPanel, bpy.types.Panel):
         settings = context.scene.glanz
         column = self.column()
         column.prop(settings, "max_depth")
+        column.prop(settings, "max_transparent")
         for name, integrators in _OF_INTEGRATORS.items():
             if settings.integrator in integrators:
                 column.prop(settings, name)

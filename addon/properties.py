@@ -56,6 +56,17 @@ class GlanzSceneSettings(bpy.types.PropertyGroup):
         soft_max=64,
         max=2**16,
     )
+    max_transparent: IntProperty(
+        name="Max Transparent",
+        description=(
+            "Transparent surfaces that light passes between two bounces; the next one absorbs what it should let pass. "
+            "Too few make leaves and veils that stand behind each other too dark; more cost time only where there are as many"
+        ),
+        default=64,
+        min=0,
+        soft_max=256,
+        max=1024,
+    )
     branches: IntProperty(
         name="Branches",
         description=(

@@ -12,6 +12,7 @@ _OWN = (
     "integrator",
     "samples",
     "max_depth",
+    "max_transparent",
     "branches",
     "min_contribution",
     "light_falloff",

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ...engine import Dielectric, Lambert, Mirror, Phong
+from ...engine import Dielectric, Lambert, Mirror, Phong, Transparent
 
 SHARPEST_EXPONENT = 1e6
 """The engine's sharpest Phong lobe, 0.1 degrees wide; what would be sharper (roughness below 0.0376) is a mirror."""
@@ -12,21 +12,19 @@ SHARPEST_EXPONENT = 1e6
 
 @dataclass(frozen=True, eq=False)
 class Closure:
-    """The sum of `lobes` (BSDF values) plus `emission` (3,) [W m^-2 sr^-1]; `is_clear` says that light goes straight through.
+    """The sum of `lobes` (BSDF values) plus `emission` (3,) [W m^-2 sr^-1].
 
     `environments` are `EnvironmentMap` values, which add to the emission of a world.
     """
 
     lobes: tuple = ()
     emission: np.ndarray = field(default_factory=lambda: np.zeros(3))
-    is_clear: bool = False
     environments: tuple = ()
 
     def __add__(self, other):
         return Closure(
             self.lobes + other.lobes,
             self.emission + other.emission,
-            self.is_clear and other.is_clear,
             self.environments + other.environments,
         )
 
@@ -40,20 +38,22 @@ class Closure:
         )
 
     def albedo(self):
-        """Share of light reflected by all lobes together, (3,)."""
+        """Share of light that goes on by all lobes together, (3,)."""
         return sum((np.array(lobe.albedo(), np.float64) for lobe in self.lobes), np.zeros(3))
 
 
 def scaled_lobe(lobe, factor):
     """`lobe` with its colours times `factor`."""
-    return _with_colours(lobe, (np.multiply(colour, factor) for colour in _colours(lobe)))
+    return with_colours(lobe, (np.multiply(colour, factor) for colour in colours_of(lobe)))
 
 
-def _colours(lobe):
+def colours_of(lobe):
+    """The colours of `lobe`, each (r, g, b), that scale what it sends on."""
     return [getattr(lobe, name) for name in ("reflectance", "transmittance") if hasattr(lobe, name)]
 
 
-def _with_colours(lobe, colours):
+def with_colours(lobe, colours):
+    """`lobe` with other `colours`, in the same order."""
     names = [name for name in ("reflectance", "transmittance") if hasattr(lobe, name)]
     return replace(lobe, **{name: tuple(float(c) for c in colour) for name, colour in zip(names, colours, strict=True)})
 
@@ -62,10 +62,10 @@ def merged(lobes):
     """The fewest lobes with the same sum: equal shapes added up, black ones left out."""
     sums = {}
     for lobe in lobes:
-        colours = np.array(_colours(lobe), np.float64)
-        shape = _with_colours(lobe, np.zeros_like(colours))
+        colours = np.array(colours_of(lobe), np.float64)
+        shape = with_colours(lobe, np.zeros_like(colours))
         sums[shape] = sums.get(shape, 0) + colours
-    return tuple(_with_colours(shape, total) for shape, total in sums.items() if total.any())
+    return tuple(with_colours(shape, total) for shape, total in sums.items() if total.any())
 
 
 def phong_exponent(roughness):
@@ -95,6 +95,11 @@ def glass(colour, ior):
     return Closure((Dielectric(ior, tuple(colour), tuple(colour)),))
 
 
+def transparent(colour):
+    """A surface that the share `colour` (r, g, b) of light passes straight on."""
+    return Closure((Transparent(tuple(colour)),))
+
+
 def emission(colour, strength):
     """Radiance colour * strength [W m^-2 sr^-1]."""
     return Closure(emission=np.array(colour, np.float64) * strength)
@@ -104,3 +109,8 @@ def mix(factor, first, second):
     """The share 1 - factor of `first` and factor of `second`."""
     factor = min(max(factor, 0.0), 1.0)
     return first.scaled(1 - factor) + second.scaled(factor)
+
+
+def with_alpha(alpha, closure):
+    """`closure` where the surface is, with probability `alpha`; light goes straight on where it is not."""
+    return mix(alpha, transparent((1.0, 1.0, 1.0)), closure)

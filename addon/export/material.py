@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from ...engine import Material
-from .closure import Closure, diffuse, merged, scaled_lobe
+from ...engine import Material, Transparent
+from .closure import Closure, colours_of, diffuse, merged, scaled_lobe, with_colours
 from .findings import Findings
 from .nodes import Reader, has_nodes, output_node
 from .principled import principled_lobes
@@ -31,7 +31,10 @@ def export_material(material, findings):
     for identifier, note in (("Displacement", "displacement is left out"), ("Volume", "the volume is left out")):
         if reader.is_linked(output, identifier):
             findings.note(note, owner)
-    return _checked(material.name, owner, surface_of(output, owner, findings), findings)
+    surface = surface_of(output, owner, findings)
+    if not getattr(material, "use_transparent_shadow", True) and any(isinstance(lobe, Transparent) for lobe in surface.lobes):
+        findings.note("Transparent Shadows is off, but transparent surfaces let shadow rays pass all the same", owner)
+    return _checked(material.name, owner, surface, findings)
 
 
 def is_volume_only(material):
@@ -57,7 +60,7 @@ def _checked(name, owner, closure, findings):
 
 
 def _clean_lobe(lobe, owner, findings):
-    return type(lobe)(**{**vars(lobe), "reflectance": clean_colour(lobe.reflectance, owner, findings)})
+    return with_colours(lobe, (clean_colour(colour, owner, findings) for colour in colours_of(lobe)))
 
 
 def clean_colour(colour, owner, findings):

@@ -76,8 +76,7 @@ def _background(reader, node):
 
 
 def _transparent(reader, node):
-    reader.note("Transparent BSDF is not supported: alone it is rendered black, mixed the other shader takes its place")
-    return Closure(is_clear=True)
+    return closure.transparent(reader.colour(node, "Color"))
 
 
 def _add(reader, node):
@@ -86,11 +85,7 @@ def _add(reader, node):
 
 def _mix(reader, node):
     factor = reader.number(node, "Fac", default=0.5)
-    first, second = (_behind(reader, node.inputs[i]) for i in (1, 2))
-    # Light cannot pass through yet; a leaf on a transparent card is better seen as a whole card than half black.
-    if first.is_clear != second.is_clear:
-        return second if first.is_clear else first
-    return closure.mix(factor, first, second)
+    return closure.mix(factor, *(_behind(reader, node.inputs[i]) for i in (1, 2)))
 
 
 _LEFT_OUT = {
@@ -109,8 +104,6 @@ def _principled(reader, node):
     for identifier, note in _LEFT_OUT.items():
         if reader.is_linked(node, identifier) or reader.number(node, identifier):
             reader.note(note)
-    if reader.is_linked(node, "Alpha") or reader.number(node, "Alpha", 1.0) < 1:
-        reader.note("Alpha of Principled BSDF is rendered opaque")
     transmission = reader.number(node, "Transmission Weight")
     if transmission > 0 and reader.number(node, "Roughness") > 0:
         reader.note("Roughness of what passes a Principled BSDF is left out, it is rendered smooth")
@@ -124,7 +117,7 @@ def _principled(reader, node):
         transmission,
     )
     shine = closure.emission(reader.colour(node, "Emission Color"), reader.number(node, "Emission Strength"))
-    return Closure(lobes, np.asarray(shine.emission))
+    return closure.with_alpha(reader.number(node, "Alpha", 1.0), Closure(lobes, np.asarray(shine.emission)))
 
 
 _TABLE = {

@@ -18,14 +18,14 @@ def test_the_files_settings_hold():
     scene.render.resolution_percentage = 50
     scene.render.threads_mode, scene.render.threads = "FIXED", 3
     glanz = scene.glanz
-    glanz.samples, glanz.max_depth, glanz.seed, glanz.tile_size = 9, 2, -5, 32
+    glanz.samples, glanz.max_depth, glanz.max_transparent, glanz.seed, glanz.tile_size = 9, 2, 7, -5, 32
     glanz.sampler, glanz.pixel_filter, glanz.filter_width = "random", "box", 2
     glanz.branches, glanz.min_contribution, glanz.light_falloff = 7, 0.25, False
     glanz.adaptive_threshold, glanz.adaptive_levels = 0.25, 5
     s = _settings()
     assert (s.adaptive_threshold, s.adaptive_levels) == (0.25, 5)
     assert (s.width, s.height, s.border, s.threads) == (100, 50, (), 3)
-    assert (s.samples, s.max_depth, s.seed, s.tile_size) == (9, 2, -5, 32)
+    assert (s.samples, s.max_depth, s.max_transparent, s.seed, s.tile_size) == (9, 2, 7, -5, 32)
     assert (s.integrator, s.sampler, s.pixel_filter, s.filter_width) == ("path", "random", "box", 2)
     assert (s.branches, s.min_contribution, s.light_falloff) == (7, 0.25, False)
     assert s.passes == ("Combined",)

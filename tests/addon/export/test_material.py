@@ -4,7 +4,8 @@ import bpy
 import numpy as np
 import pytest
 
-from glanz.engine import Dielectric, Lambert, Mirror, Phong
+from glanz.addon.export.principled import principled_lobes
+from glanz.engine import Dielectric, Lambert, Mirror, Phong, Transparent
 from glanz.tests.addon import blender
 
 
@@ -101,7 +102,6 @@ def test_principled_has_both_lobes_and_emission():
         ("Sheen_Weight", 0.5, "Sheen"),
         ("Subsurface_Weight", 0.5, "Subsurface"),
         ("Anisotropic", 0.5, "Anisotropy"),
-        ("Alpha", 0.5, "Alpha"),
     ],
 )
 def test_what_principled_cannot_do_is_named(identifier, value, word):
@@ -142,15 +142,79 @@ def test_shaders_that_reflect_too_much_are_darkened_and_named():
     assert "material 'Bright'" in warnings[0]
 
 
-def test_transparency_in_a_mix_leaves_the_other_shader():
+def test_transparent_alone_lets_its_colour_pass():
+    exported, warnings = _exported(blender.new_material("Filter", "ShaderNodeBsdfTransparent", Color=(0.75, 0.5, 0.25, 1)))
+    assert exported.lobes == (Transparent((0.75, 0.5, 0.25)),)
+    assert warnings == ()
+
+
+@pytest.mark.parametrize(
+    ("factor", "lobes"),
+    [
+        (0, (Transparent((1.0, 0.5, 0.0)),)),
+        (0.25, (Transparent((0.75, 0.375, 0.0)), Lambert((0.0, 0.25, 0.0)))),
+        (1, (Lambert((0.0, 1.0, 0.0)),)),
+    ],
+)
+def test_transparent_in_a_mix_has_its_share(factor, lobes):
     material, tree, surface = _tree("Leaf")
-    mix = blender.add_node(tree, "ShaderNodeMixShader", Fac=0.5)
-    tree.links.new(tree.nodes.new("ShaderNodeBsdfTransparent").outputs[0], mix.inputs[1])
+    mix = blender.add_node(tree, "ShaderNodeMixShader", Fac=factor)
+    tree.links.new(blender.add_node(tree, "ShaderNodeBsdfTransparent", Color=(1, 0.5, 0, 1)).outputs[0], mix.inputs[1])
     tree.links.new(blender.add_node(tree, "ShaderNodeBsdfDiffuse", Color=(0, 1, 0, 1)).outputs[0], mix.inputs[2])
     tree.links.new(mix.outputs[0], surface)
     exported, warnings = _exported(material)
-    assert exported.lobes == (Lambert((0.0, 1.0, 0.0)),)
-    assert "material 'Leaf'" in warnings[0]
+    assert exported.lobes == lobes
+    assert warnings == ()
+
+
+def test_transparent_added_to_glow_lets_everything_pass():
+    material, tree, surface = _tree("Flame")
+    add = tree.nodes.new("ShaderNodeAddShader")
+    tree.links.new(blender.add_node(tree, "ShaderNodeBsdfTransparent", Color=(1, 1, 1, 1)).outputs[0], add.inputs[0])
+    tree.links.new(blender.add_node(tree, "ShaderNodeEmission", Strength=3).outputs[0], add.inputs[1])
+    tree.links.new(add.outputs[0], surface)
+    exported, warnings = _exported(material)
+    assert exported.lobes == (Transparent(),)
+    assert exported.emission == (3, 3, 3)
+    assert warnings == ()
+
+
+def test_transparent_added_to_white_is_darkened_and_named():
+    """Together they would send on twice what arrives."""
+    material, tree, surface = _tree("Ghost")
+    add = tree.nodes.new("ShaderNodeAddShader")
+    for i, kind in enumerate(("Transparent", "Diffuse")):
+        tree.links.new(blender.add_node(tree, f"ShaderNodeBsdf{kind}", Color=(1, 1, 1, 1)).outputs[0], add.inputs[i])
+    tree.links.new(add.outputs[0], surface)
+    exported, warnings = _exported(material)
+    assert exported.lobes == (Transparent((0.5,) * 3), Lambert((0.5,) * 3))
+    assert "material 'Ghost'" in warnings[0]
+
+
+@pytest.mark.parametrize("alpha", [0, 0.25, 1])
+def test_alpha_of_principled_scales_all_and_lets_the_rest_pass(alpha):
+    """What glows, too, as in Cycles."""
+    values = {"Base_Color": (0.8, 0.4, 0.2, 1), "Emission_Strength": 4, "Emission_Color": (1, 1, 1, 1), "Transmission_Weight": 0.5}
+    material, warnings = _exported(blender.new_material("M", "ShaderNodeBsdfPrincipled", Roughness=0, Alpha=alpha, **values))
+    assert warnings == ()
+    found = {type(lobe): lobe for lobe in material.lobes}
+    clear = found.pop(Transparent, Transparent.black())
+    assert clear == Transparent((1 - alpha,) * 3)
+    solid = principled_lobes((0.8, 0.4, 0.2), 0.0, 0.0, 1.5, 0.5, transmission=0.5)
+    assert set(found) == ({type(lobe) for lobe in solid} if alpha else set())
+    for lobe in solid if alpha else ():
+        assert found[type(lobe)].reflectance == pytest.approx(np.multiply(lobe.reflectance, alpha))
+    assert material.emission == pytest.approx((4 * alpha,) * 3)
+
+
+def test_shadows_that_should_not_be_transparent_are_named():
+    if not hasattr(bpy.types.Material, "use_transparent_shadow"):
+        return
+    material = blender.new_material("Blind", "ShaderNodeBsdfTransparent")
+    material.use_transparent_shadow = False
+    (warning,) = _exported(material)[1]
+    assert "Transparent Shadows is off" in warning
+    assert "material 'Blind'" in warning
 
 
 def test_unknown_shaders_are_diffuse_in_their_colour_and_named():
