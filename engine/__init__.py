@@ -8,9 +8,11 @@ from . import bsdfs, cameras, filters, integrators, lights, passes, samplers  # 
 from .bsdfs.blinn_phong import BlinnPhong
 from .bsdfs.dielectric import Dielectric
 from .bsdfs.lambert import Lambert
+from .bsdfs.lambert_transmission import LambertTransmission
 from .bsdfs.mirror import Mirror
 from .bsdfs.phong import Phong
 from .bsdfs.phong_lecture import PhongLecture
+from .bsdfs.phong_transmission import PhongTransmission
 from .bsdfs.transparent import Transparent
 from .cameras.orthographic import OrthographicCamera
 from .cameras.panorama import PanoramaCamera
@@ -45,6 +47,7 @@ __all__ = [
     "GlanzError",
     "Image",
     "Lambert",
+    "LambertTransmission",
     "Lens",
     "Material",
     "Medium",
@@ -56,6 +59,7 @@ __all__ = [
     "PerspectiveCamera",
     "Phong",
     "PhongLecture",
+    "PhongTransmission",
     "PointLight",
     "Progress",
     "Requirements",

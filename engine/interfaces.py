@@ -37,9 +37,11 @@ class Lobe(Protocol):
 
 @runtime_checkable
 class Bsdf(Lobe, Protocol):
-    """A reflection lobe about the shading normal `n` (3, N); `wo`, `wi` (3, N) are unit and leave the surface.
+    """A lobe with a width, at the shading normal `n` (3, N); `wo`, `wi` (3, N) are unit and leave the surface.
 
-    What is asked for is reflection: `eval` says nothing of wi below the horizon of `n`, where callers take f as 0.
+    One that does not transmit is asked for light from the side of `n`, one that does for light from the other side only:
+    `eval` says nothing of wi on the side that is not the lobe's, where callers take f as 0. A transmitting lobe is that
+    of a thin sheet: on both of its sides is the same medium.
 
     is_reciprocal  f is the same with wo and wi exchanged
     """
@@ -56,7 +58,7 @@ class Bsdf(Lobe, Protocol):
 
     @staticmethod
     def sample(k, n, wo, u2):
-        """Directions wi (3, N), unit, distributed as `pdf`; they may fall below the horizon, where f is 0."""
+        """Directions wi (3, N), unit, distributed as `pdf`; they may fall on the other side of the horizon, where f is 0."""
 
     @staticmethod
     def pdf(k, n, wo, wi):

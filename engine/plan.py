@@ -12,6 +12,7 @@ from .wavefront import media
 from .wavefront.adaptive import AdaptiveTile
 from .wavefront.camera_rays import bladed_aperture, round_aperture, through_the_lens, through_the_pinhole
 from .wavefront.clip import clip_row, start_in_range, to_the_end_of_range
+from .wavefront.direct import shadow_rays_in_front, shadow_rays_on_either_side
 from .wavefront.emission import add_emission
 from .wavefront.escape import add_background, add_environment, add_light_hits, add_light_hits_beyond
 from .wavefront.motion import (
@@ -31,6 +32,7 @@ from .wavefront.tiles import EvenTile
 from .wavefront.visibility import all_of_it, all_the_way, closest, interact_at_rest, occluded, seen_at_rest, travel, unblocked
 from .world.compile import CompiledWorld, compile_world
 from .world.interaction import flat_normals, leave_in_front, leave_on_either_side, smooth_normals
+from .world.materials import TwoSided
 from .world.passing import Passing
 from .world.poses import Path, Poses
 
@@ -46,6 +48,7 @@ class Plan:
     closest, occluded  what lies along rays (plan, carried, o, d, limit), see `wavefront.visibility`
     reach              how far (plan, rays) rays go
     travel             the hits (plan, rays, film) of a batch, see `wavefront.visibility`
+    shadow_rays        the shadow rays (plan, rays, surface, wi, distance) to points on lights
     unblocked          the shadow rays (plan, rays, o, d, limit, candidate) that arrive
     left               the share of light (plan, rays, t) that is left after a way t
     seen_from_camera   points (plan, rays, p) of render space as `camera` and `camera_k` describe them
@@ -78,6 +81,7 @@ class Plan:
     occluded: object
     reach: object
     travel: object
+    shadow_rays: object
     unblocked: object
     left: object
     seen_from_camera: object
@@ -153,6 +157,7 @@ class Plan:
             occluded=media.occluded_in_media(blocked, media.through_media(nearest)) if is_nested else blocked,
             reach=(to_the_end_of_moving_range if follows else to_the_end_of_range) if is_clipped else all_the_way,
             travel=travel_through if passes else travel,
+            shadow_rays=shadow_rays_on_either_side if world.materials.kind is TwoSided else shadow_rays_in_front,
             unblocked=unblocked_through if tints else media.absorbed(unblocked) if absorbs else unblocked,
             left=media.left_by_media if absorbs else all_of_it,
             seen_from_camera=seen_from_camera if follows else seen_at_rest,

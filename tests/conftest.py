@@ -3,4 +3,4 @@
 import pytest
 
 # Assertions in helpers say as much when they fail as those in tests.
-pytest.register_assert_rewrite("glanz.tests.helpers")
+pytest.register_assert_rewrite("glanz.tests.helpers", "glanz.tests.bsdf_laws")

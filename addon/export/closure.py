@@ -4,7 +4,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ...engine import Dielectric, Lambert, Mirror, Phong, Transparent
+from ...engine import Dielectric, Lambert, LambertTransmission, Mirror, Phong, Transparent
 
 SHARPEST_EXPONENT = 1e6
 """The engine's sharpest Phong lobe, 0.1 degrees wide; what would be sharper (roughness below 0.0376) is a mirror."""
@@ -83,6 +83,11 @@ def glossy_lobe(colour, roughness):
 def diffuse(colour):
     """Ideal diffuse reflection of `colour` (r, g, b)."""
     return Closure((Lambert(tuple(colour)),))
+
+
+def translucent(colour):
+    """Ideal diffuse transmission of `colour` (r, g, b)."""
+    return Closure((LambertTransmission(tuple(colour)),))
 
 
 def glossy(colour, roughness):

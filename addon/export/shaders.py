@@ -47,6 +47,11 @@ def _diffuse(reader, node):
     return closure.diffuse(reader.colour(node, "Color"))
 
 
+def _translucent(reader, node):
+    _note_normal(reader, node)
+    return closure.translucent(reader.colour(node, "Color"))
+
+
 def _glossy(reader, node):
     _note_normal(reader, node)
     if reader.number(node, "Anisotropy") != 0:
@@ -125,6 +130,7 @@ _TABLE = {
     "BSDF_DIFFUSE": _diffuse,
     "BSDF_GLOSSY": _glossy,
     "BSDF_GLASS": _glass,
+    "BSDF_TRANSLUCENT": _translucent,
     "BSDF_TRANSPARENT": _transparent,
     "EMISSION": _emission,
     "BACKGROUND": _background,

@@ -1,9 +1,12 @@
 """Next-event estimation: a shadow ray from every surface point to a point on a light."""
 
+import dataclasses
+
 import numpy as np
 
 from ..constants import EPS32
-from ..maths.vectors import dot
+from ..maths.vectors import dot, length
+from .continuation import leaving
 from .mis import power_heuristic
 from .numbers import Dimension
 
@@ -17,18 +20,39 @@ def add_direct_light(plan, rays, surface, reflection, film):
     # Seen from where the shadow ray starts, so that it ends where it should.
     index, probability, u2 = world.lights.choice.choose(surface.o, plan.numbers.two(rays, Dimension.LIGHT))
     wi, distance, E, pdf = world.lights.sample(index, surface.o, u2)
-    cos = dot(surface.ns, wi)
+    cos = reflection.cosine(surface, wi)
     f, scattered_pdf = reflection.eval(surface.ns, surface.wo, wi)
     L = rays.beta * f
     E *= cos * power_heuristic(pdf * probability, scattered_pdf) / probability
     L *= E
-    arriving(plan, rays, surface, wi, distance, L, film)
+    arriving(plan, rays, surface, wi, distance, cos, L, film)
 
 
-def arriving(plan, rays, surface, wi, distance, L, film):
-    """Add L (3, N), reflected light from the directions wi (3, N), where nothing is in the way up to `distance` (N,)."""
-    # Light from below the geometric surface would leak through it. (Not "> 0": what is not a number goes to the film,
-    # which counts it.)
-    candidate = ~(np.maximum(np.maximum(L[0], L[1]), L[2]) <= 0) & (dot(surface.ns, wi) > 0) & (dot(surface.n, wi) > 0)
-    lanes, share = plan.unblocked(plan, rays, surface.o, wi, distance * SHORTENED, candidate)
+def arriving(plan, rays, surface, wi, distance, cos, L, film):
+    """Add L (3, N), reflected light from the directions wi (3, N), where nothing is in the way up to `distance` (N,).
+
+    Only where cos (N,), that of `reflection.cosine`, is above 0.
+    """
+    # Not "L > 0": what is not a number goes to the film, which counts it.
+    candidate = ~(np.maximum(np.maximum(L[0], L[1]), L[2]) <= 0) & (cos > 0)
+    lanes, share = plan.unblocked(plan, *plan.shadow_rays(plan, rays, surface, wi, distance), candidate)
     film.add(rays.slot.take(lanes), L.take(lanes, axis=1) * share)
+
+
+def shadow_rays_in_front(plan, rays, surface, wi, distance):
+    """Shadow rays to what lies at `distance` (N,) along wi (3, N) from surface.o: rays, o, d (3, N), and limit (N,)."""
+    return rays, surface.o, wi, distance * SHORTENED
+
+
+def shadow_rays_on_either_side(plan, rays, surface, wi, distance):
+    """The same, where light may come through the surface: what lies behind it is sought from behind, as scattered rays do."""
+    shadow = dataclasses.replace(leaving(plan, rays, surface, wi, rays.beta, distance), depth=rays.depth)
+    d, limit = wi, distance
+    behind = np.nonzero((dot(surface.n, wi) < 0) & np.isfinite(distance))[0]
+    if behind.size:
+        # The same point, seen from the other side.
+        way = (surface.o - shadow.o).take(behind, axis=1) + wi.take(behind, axis=1) * distance.take(behind)
+        d, limit = wi.copy(), distance.copy()
+        limit[behind] = length(way)
+        d[:, behind] = way / limit.take(behind)
+    return shadow, shadow.o, d, limit * SHORTENED

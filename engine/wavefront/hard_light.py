@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from ..maths.vectors import dot
 from .direct import arriving
 from .numbers import Dimension
 
@@ -13,10 +12,11 @@ MOST_LIGHTS = 64
 def add_hard_light(plan, rays, surface, reflection, film):
     """Light from the middle of every light, reflected by the rough lobes."""
     for wi, distance, E in _middles(plan, rays, surface):
+        cos = reflection.cosine(surface, wi)
         f, _ = reflection.eval(surface.ns, surface.wo, wi)
         L = rays.beta * f
-        L *= E * dot(surface.ns, wi)
-        arriving(plan, rays, surface, wi, distance, L, film)
+        L *= E * cos
+        arriving(plan, rays, surface, wi, distance, cos, L, film)
 
 
 def add_illumination(plan, rays, surface, reflection, film):
@@ -25,8 +25,8 @@ def add_illumination(plan, rays, surface, reflection, film):
     for wi, distance, E in _middles(plan, rays, surface):
         I_L = E if plan.settings.light_falloff else E * _of_one_metre(distance, plan.world.frame.scale)
         film.add(rays.slot, rays.beta * ambient * I_L)
-        shade = sum(lobe.bsdf.illuminate(lobe.k, surface.ns, surface.wo, wi) for lobe in reflection.rough)
-        arriving(plan, rays, surface, wi, distance, rays.beta * shade * I_L, film)
+        L = rays.beta * reflection.illuminate(surface.ns, surface.wo, wi) * I_L
+        arriving(plan, rays, surface, wi, distance, reflection.cosine(surface, wi), L, film)
 
 
 def _of_one_metre(distance, scale):

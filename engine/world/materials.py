@@ -28,6 +28,7 @@ class Materials:
     shares      (lobes, M) float32: the probability of each lobe, in proportion to its albedo
     emission    (3, M) float32 [W m^-2 sr^-1]
     ambient     (3, M) float32, k_a
+    kind        `Reflection`, or `TwoSided` where a lobe with a width transmits
     """
 
     lobes: tuple
@@ -35,6 +36,7 @@ class Materials:
     shares: np.ndarray
     emission: np.ndarray
     ambient: np.ndarray
+    kind: type
 
     @classmethod
     def of(cls, materials, bsdfs):
@@ -49,7 +51,8 @@ class Materials:
         total = albedos.sum(axis=0)
         shares = np.where(total > 0, albedos / np.where(total > 0, total, 1), 1 / max(len(slots), 1)).astype(np.float32)
         emission, ambient = (_colours(getattr(m, name) for m in materials) for name in ("emission", "ambient"))
-        return cls(tuple(lobes), _thresholds(shares), shares, emission, ambient)
+        kind = TwoSided if any(bsdf.transmits and not bsdf.is_specular for bsdf in bsdfs) else Reflection
+        return cls(tuple(lobes), _thresholds(shares), shares, emission, ambient, kind)
 
     @property
     def rough_lobes(self):
@@ -65,7 +68,7 @@ class Materials:
         thresholds, shares = self.thresholds, self.shares
         if len(lobes) > 1 and self.emission.shape[1] > 1:
             thresholds, shares = thresholds.take(material, axis=1), shares.take(material, axis=1)
-        return Reflection(tuple(lobes[: self.rough_lobes]), tuple(lobes[self.rough_lobes :]), thresholds, shares)
+        return self.kind(tuple(lobes[: self.rough_lobes]), tuple(lobes[self.rough_lobes :]), thresholds, shares)
 
 
 def _colours(colours):
@@ -97,28 +100,39 @@ class Reflection:
 
     def eval(self, n, wo, wi):
         """f [sr^-1], (3, N), and pdf [sr^-1], (N,), of wi, by the rough lobes."""
-        f, pdf = 0, 0
+        pdf = 0
         for lobe, share in zip(self.rough, self.shares):
-            f = f + lobe.bsdf.eval(lobe.k, n, wo, wi)
             density = lobe.bsdf.pdf(lobe.k, n, wo, wi)
             pdf = pdf + (density if len(self.shares) == 1 else density * share)
-        return f, pdf
+        return self._added("eval", n, wo, wi), pdf
+
+    def illuminate(self, n, wo, wi):
+        """The terms of the lecture's illumination model, (3, N), by the rough lobes."""
+        return self._added("illuminate", n, wo, wi)
+
+    def cosine(self, surface, wi):
+        """|cos| (N,) of wi to the shading normals of `surface` where light from wi counts, 0 elsewhere.
+
+        Below the geometric surface there is nothing to reflect into, and light from there would leak through it.
+        """
+        cos = dot(surface.ns, wi)
+        return cos * ((cos > 0) & (dot(surface.n, wi) > 0))
 
     def scatter(self, surface, u1, u2, uniformly=False):
         """One direction on from each point of `surface`: wi (3, N), weight = f |cos| / pdf (3, N), and pdf (N,).
 
-        u1 (N,) chooses the lobe (None where there is but one), u2 (2, N) the direction; `uniformly` over the hemisphere
-        instead of as the rough lobes have it. The pdf of a specular lobe is inf: nothing else can find what it finds.
+        u1 (N,) chooses the lobe (None where there is but one), u2 (2, N) the direction; `uniformly` over the hemisphere (the
+        sphere, if lobes transmit) instead of as the rough lobes have it. The pdf of a specular lobe is inf: nothing else
+        can find what it finds.
         The weight is 0, or not a number, where nothing goes on.
         """
         if self.rough:
             wi = self._sample_uniformly(surface.ns, u2) if uniformly else self._sample_rough(surface.ns, surface.wo, u1, u2)
             f, pdf = self.eval(surface.ns, surface.wo, wi)
             if uniformly:
-                pdf = np.full_like(wi[0], 0.5 * INV_PI) * self._rough_share()
-            cos = dot(surface.ns, wi)
-            # Below the geometric surface there is nothing to reflect into; such paths end, and still count.
-            weight = f * (cos * ((cos > 0) & (dot(surface.n, wi) > 0)) / pdf)
+                pdf = np.full_like(wi[0], self._uniform_pdf) * self._rough_share()
+            # Paths that end here still count.
+            weight = f * (self.cosine(surface, wi) / pdf)
         else:
             wi, weight, pdf = np.zeros_like(surface.wo), np.zeros_like(surface.wo), np.zeros_like(surface.wo[0])
         for i, lobe in enumerate(self.specular, start=len(self.rough)):
@@ -144,7 +158,10 @@ class Reflection:
         shares = self.shares[: len(self.rough)]
         total = shares.sum(axis=0, dtype=np.float32)
         shares = np.where(total > 0, shares / np.where(total > 0, total, 1), np.float32(1 / len(self.rough)))
-        return Reflection(self.rough, (), _thresholds(shares), shares)
+        return type(self)(self.rough, (), _thresholds(shares), shares)
+
+    def _added(self, term, n, wo, wi):
+        return sum(getattr(lobe.bsdf, term)(lobe.k, n, wo, wi) for lobe in self.rough)
 
     def _sample_rough(self, n, wo, u1, u2):
         first = self.rough[0]
@@ -153,6 +170,8 @@ class Reflection:
             lanes = self._chosen(i, u1, u2)
             wi[:, lanes] = lobe.bsdf.sample(_rows(lobe.k, lanes), n.take(lanes, axis=1), wo.take(lanes, axis=1), u2.take(lanes, axis=1))
         return wi
+
+    _uniform_pdf = 0.5 * INV_PI
 
     @staticmethod
     def _sample_uniformly(n, u2):
@@ -171,6 +190,30 @@ class Reflection:
         if i < len(self.thresholds):
             is_chosen = is_chosen & (u1 < self.thresholds[i])
         return np.nonzero(is_chosen)[0]
+
+
+class TwoSided(Reflection):
+    """Lobes of which some transmit: each counts on its own side, and between shading and geometric normal none does."""
+
+    __slots__ = ()
+    _uniform_pdf = 0.25 * INV_PI
+
+    def cosine(self, surface, wi):
+        """See `Reflection.cosine`; light counts on both sides, if both normals agree which one it is."""
+        cos = dot(surface.ns, wi)
+        return np.abs(cos) * (cos * dot(surface.n, wi) > 0)
+
+    def _added(self, term, n, wo, wi):
+        is_behind = dot(n, wi) < 0
+        return sum(getattr(lobe.bsdf, term)(lobe.k, n, wo, wi) * (is_behind == lobe.bsdf.transmits) for lobe in self.rough)
+
+    @staticmethod
+    def _sample_uniformly(n, u2):
+        # Half of the numbers for each side.
+        twice = 2 * u2[0]
+        is_behind = twice >= 1
+        w = to_world(n, square_to_uniform_hemisphere(np.stack((twice - is_behind, u2[1]))))
+        return np.where(is_behind, -w, w)
 
 
 def _all(branches):

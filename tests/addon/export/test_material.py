@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from glanz.addon.export.principled import principled_lobes
-from glanz.engine import Dielectric, Lambert, Mirror, Phong, Transparent
+from glanz.engine import Dielectric, Lambert, LambertTransmission, Mirror, Phong, Transparent
 from glanz.tests.addon import blender
 
 
@@ -60,6 +60,26 @@ def test_glass_is_a_dielectric_that_tints_both_ways():
     assert type(lobe) is Dielectric
     assert lobe.ior == pytest.approx(1.33)
     assert lobe.reflectance == lobe.transmittance == pytest.approx((0.5, 0.6, 0.7))
+
+
+def test_translucent_lets_light_through():
+    material, warnings = _exported(blender.new_material("Leaf", "ShaderNodeBsdfTranslucent", Color=(0.5, 0.6, 0.7, 1)))
+    assert warnings == ()
+    (lobe,) = material.lobes
+    assert type(lobe) is LambertTransmission
+    assert lobe.transmittance == pytest.approx((0.5, 0.6, 0.7))
+
+
+def test_what_reflects_and_passes_more_than_arrives_is_darkened():
+    """Both lobes alike."""
+    material, tree, surface = _tree("Leaf")
+    add = tree.nodes.new("ShaderNodeAddShader")
+    for i, kind in enumerate(("ShaderNodeBsdfDiffuse", "ShaderNodeBsdfTranslucent")):
+        tree.links.new(blender.add_node(tree, kind, Color=(0.8, 0.4, 0, 1)).outputs[0], add.inputs[i])
+    tree.links.new(add.outputs[0], surface)
+    exported, warnings = _exported(material)
+    assert exported.lobes[0].reflectance == exported.lobes[1].transmittance == pytest.approx((0.5, 0.25, 0))
+    assert warnings == ("the material reflects more than it receives, so it is darkened: material 'Leaf'",)
 
 
 def test_rough_glass_is_smooth_and_says_so():
@@ -218,9 +238,9 @@ def test_shadows_that_should_not_be_transparent_are_named():
 
 
 def test_unknown_shaders_are_diffuse_in_their_colour_and_named():
-    exported, warnings = _exported(blender.new_material("Window", "ShaderNodeBsdfTranslucent", Color=(0.5, 0.6, 0.7, 1)))
+    exported, warnings = _exported(blender.new_material("Shirt", "ShaderNodeBsdfSheen", Color=(0.5, 0.6, 0.7, 1)))
     assert exported.lobes[0].reflectance == pytest.approx((0.5, 0.6, 0.7))
-    assert warnings == ("Translucent BSDF is not supported and is rendered as Diffuse of its colour: material 'Window'",)
+    assert warnings == ("Sheen BSDF is not supported and is rendered as Diffuse of its colour: material 'Shirt'",)
 
 
 def test_textures_are_named_and_the_sockets_own_value_is_used():
