@@ -11,7 +11,7 @@ class Lobe(Protocol):
     """What all BSDFs have in common; `Bsdf` and `SpecularBsdf` say how they scatter.
 
     is_specular  light leaves in single directions, and shadow rays cannot find it
-    transmits    light may pass the surface; such a BSDF has a `transmittance` (r, g, b)
+    transmits    light may pass the surface; a specular BSDF that does has a `transmittance` (r, g, b)
 
     A specular BSDF that light passes without a change of direction also says `is_straight = True` (see `is_straight`).
     """
@@ -86,6 +86,11 @@ class SpecularBsdf(Lobe, Protocol):
 def is_straight(bsdf):
     """Whether light passes `bsdf` (class or value) straight on: shadow rays, too, and light is found beyond as if it came direct."""
     return getattr(bsdf, "is_straight", False)
+
+
+def lets_shadow_rays_pass(bsdf, tints_glass):
+    """Whether `bsdf` (class or value) weakens shadow rays by its transmittance instead of blocking them, see `Integrator.tints_glass`."""
+    return is_straight(bsdf) or (tints_glass and bsdf.is_specular and bsdf.transmits)
 
 
 @runtime_checkable

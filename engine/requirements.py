@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 
 from . import needs
-from .interfaces import is_straight
+from .interfaces import is_straight, lets_shadow_rays_pass
 from .registry import BSDFS, CAMERAS, FILTERS, INTEGRATORS, LIGHTS, PASSES, SAMPLERS
 from .scene.bodies import inside_of, sharing_space
 
@@ -63,7 +63,7 @@ class Requirements:
                     ask(needs.of_plugin("bsdf", type(lobe)), material.name)
                     if is_straight(lobe) and not integrator.tints_glass:
                         ask(needs.TRANSPARENCY, material.name)
-                    if integrator.samples_lights and lobe.transmits and (is_straight(lobe) or integrator.tints_glass):
+                    if integrator.samples_lights and lets_shadow_rays_pass(lobe, integrator.tints_glass):
                         ask(needs.TINTED_SHADOWS, material.name)
                 if any(material.emission):
                     ask(needs.EMISSIVE_MESHES, o.name)

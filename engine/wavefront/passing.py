@@ -13,6 +13,7 @@ import dataclasses
 
 import numpy as np
 
+from ..arrays import Columns
 from ..maths.vectors import dot, length
 from ..world.interaction import leave_on_either_side
 from .numbers import Dimension
@@ -79,7 +80,8 @@ def _travel_beyond(plan, rays, hits, film):
 
 def _behind(plan, rays, hits):
     """Where `rays` (3, N) start anew behind the surfaces that they met; what they carry is renewed."""
-    surface = plan.interact(plan, rays, hits)
+    # They have not landed there, whatever they carry as if they had.
+    surface = plan.interact(plan, dataclasses.replace(rays, carried=Columns(**vars(rays.carried))), hits)
     for stage in plan.on_passing:
         stage(plan, rays, surface)
     return leave_on_either_side(surface, rays.d)

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..interfaces import is_straight
+from ..interfaces import is_straight, lets_shadow_rays_pass
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -32,7 +32,7 @@ class Passing:
                     straight[:, i] += lobe.transmittance
                 else:
                     other[:, i] += lobe.albedo()
-                if is_straight(lobe) or (tints_glass and lobe.transmits):
+                if lets_shadow_rays_pass(lobe, tints_glass):
                     shadow[:, i] += lobe.transmittance
         straight, shadow, other = (share.astype(np.float32) for share in (straight, shadow, other))
         return cls(straight, other, straight.any(axis=0), shadow)

@@ -9,6 +9,7 @@ from glanz.engine import (
     AreaLight,
     Dielectric,
     Lambert,
+    LambertTransmission,
     Material,
     PerspectiveCamera,
     PointLight,
@@ -202,6 +203,13 @@ def test_glass_blocks_shadow_rays_unless_the_integrator_has_them_weakened(monkey
     lights, _, E = LIGHTS["point"]
     values = irradiance(below(lights, [ball]), samples=1)
     np.testing.assert_allclose(values, np.broadcast_to(tints * E * TINT[:, None] ** 2, values.shape), rtol=1e-5)
+
+
+@pytest.mark.parametrize("integrator", ["path", "whitted"])
+def test_translucent_sheets_block_shadow_rays(integrator):
+    """What passes them is spread, and found by scattered rays."""
+    sheet = sheets(1, Material(name="paper", lobes=(LambertTransmission((0.5, 0.5, 0.5)),)))
+    assert not irradiance(below(LIGHTS["point"][0], sheet), samples=1, integrator=integrator).any()
 
 
 def test_crossed_filters_are_black():
