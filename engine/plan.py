@@ -122,8 +122,8 @@ class Plan:
             *((media.add_light_hits_in_media if absorbs else add_light_hits,) if needs.LIGHT_HITS in requirements else ()),
             *((media.absorb,) if absorbs else ()),
             *((add_environment,) if world.lights.environment else (add_background,) if needs.BACKGROUND in requirements else ()),
-            *((add_emission,) if needs.EMISSIVE_MESHES in requirements and world.emitters.count else ()),
-            *((add_moving_emission,) if needs.EMISSIVE_MESHES in requirements and world.movers else ()),
+            *((add_emission,) if needs.EMISSIVE_MESHES in requirements and world.emitters.still else ()),
+            *((add_moving_emission,) if needs.EMISSIVE_MESHES in requirements and world.emitters.moving else ()),
         )
         can_sample = integrator.samples_lights and world.materials.rough_lobes and not world.lights.is_empty
         is_clipped = needs.CLIP_RANGE in requirements

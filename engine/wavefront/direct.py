@@ -19,7 +19,7 @@ def add_direct_light(plan, rays, surface, reflection, film):
     world = plan.world
     # Seen from where the shadow ray starts, so that it ends where it should.
     index, probability, u2 = world.lights.choice.choose(surface.o, plan.numbers.two(rays, Dimension.LIGHT))
-    wi, distance, E, pdf = world.lights.sample(index, surface.o, u2)
+    wi, distance, E, pdf = world.lights.sample(index, surface.o, u2, rays.time)
     cos = reflection.cosine(surface, wi)
     f, scattered_pdf = reflection.eval(surface.ns, surface.wo, wi)
     L = rays.beta * f

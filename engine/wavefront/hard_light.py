@@ -40,10 +40,10 @@ def _middles(plan, rays, surface):
     lights = plan.world.lights
     if lights.count > MOST_LIGHTS:
         index, probability, u2 = lights.choice.choose(surface.o, plan.numbers.two(rays, Dimension.LIGHT))
-        wi, distance, E, _ = lights.sample_middle(index, surface.o, u2)
+        wi, distance, E, _ = lights.sample_middle(index, surface.o, u2, rays.time)
         yield wi, distance, E / probability
         return
     u2 = np.empty((2, surface.o.shape[1]), np.float32) if lights.have_middles else plan.numbers.two(rays, Dimension.LIGHT)
     for index in range(lights.count):
-        wi, distance, E, _ = lights.sample_middle(index, surface.o, u2)
+        wi, distance, E, _ = lights.sample_middle(index, surface.o, u2, rays.time)
         yield wi, distance, E

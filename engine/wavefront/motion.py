@@ -5,9 +5,12 @@ from dataclasses import replace
 import numpy as np
 
 from ..constants import EPS32
+from ..maths import patches
+from ..maths.vectors import dot
 from ..world.interaction import START_ULPS, interact
 from . import visibility
 from .clip import range_along
+from .mis import power_heuristic
 from .numbers import Dimension
 
 TIME = "time"
@@ -21,20 +24,20 @@ def start_time(plan, rays):
 
 def follow_camera(plan, rays):
     """Camera rays, aimed from where the camera is at the middle of the shutter, start from where it is at their time."""
-    pose = plan.camera_poses.at(0, rays.carried.time)
+    pose = plan.camera_poses.at(0, rays.time)
     rays.o[...], rays.d[...] = pose.points(rays.o), pose.vectors(rays.d)
 
 
 def seen_from_camera(plan, rays, p):
     """Points p (3, N) of render space as the camera sees them at the time of `rays`: moved to its place at the middle of the shutter."""
-    return plan.camera_poses.at(0, rays.carried.time).local_points(p).astype(np.float32)
+    return plan.camera_poses.at(0, rays.time).local_points(p).astype(np.float32)
 
 
 def to_the_end_of_moving_range(plan, rays):
     """As `clip.to_the_end_of_range`, for a camera that moves."""
     if rays.depth:
         return None
-    return range_along(plan, plan.camera_poses.at(0, rays.carried.time).local_vectors(rays.d).astype(np.float32))
+    return range_along(plan, plan.camera_poses.at(0, rays.time).local_vectors(rays.d).astype(np.float32))
 
 
 def closest_at_time(plan, carried, o, d, limit=None):
@@ -60,7 +63,7 @@ def interact_at_time(plan, rays, hits):
     if not lanes.size:
         return visibility.interact_at_rest(plan, rays, hits)
     prim, d = hits.prim.take(lanes), rays.d.take(lanes, axis=1)
-    pose = movers.poses.at(movers.owner.take(prim - movers.first), rays.carried.time.take(lanes))
+    pose = movers.poses.at(movers.owner.take(prim - movers.first), rays.time.take(lanes))
     local_d = np.array(rays.d)
     local_d[:, lanes] = pose.local_vectors(d)
     surface = interact(world.triangles, plan.shading_normals, local_d, hits)
@@ -85,9 +88,16 @@ def _with(vectors, lanes, values):
 
 
 def add_moving_emission(plan, rays, hits, film):
-    """Emission where rays hit a moving mesh that emits; only they look for it, so it needs no weight."""
-    world = plan.world
+    """As `emission.add_emission`, where rays hit a moving mesh that emits."""
+    world, lamps = plan.world, plan.world.emitters.moving
     lanes = np.nonzero(hits.prim >= world.movers.first)[0]
-    L = world.materials.emission.take(world.triangles.material.take(hits.prim.take(lanes)), axis=1)
-    L = L * rays.beta.take(lanes, axis=1)
+    lamp = lamps.lamp.take(hits.prim.take(lanes) - world.movers.first)
+    lanes, lamp = lanes[lamp >= 0], lamp[lamp >= 0]
+    L = lamps.radiance.take(lamp, axis=1) * rays.beta.take(lanes, axis=1)
+    if rays.depth and lanes.size:
+        k, t = lamps.at(lamp, rays.time.take(lanes)), hits.t.take(lanes)
+        pdf = patches.pdf(k.area * np.abs(dot(k.normal, rays.d.take(lanes, axis=1))) / (t * t))
+        index = world.lights.first_patch + world.emitters.still + lamp
+        pdf *= world.lights.choice.probability(index, rays.o.take(lanes, axis=1))
+        L *= power_heuristic(rays.pdf.take(lanes), pdf)
     film.add(rays.slot.take(lanes), L)

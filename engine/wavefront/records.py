@@ -35,6 +35,11 @@ class Rays:
     stream: int = 0
     carried: Columns = field(default_factory=Columns)
 
+    @property
+    def time(self):
+        """(N,) in [0, 1), from the opening of the shutter to its closing; None where nothing moves."""
+        return getattr(self.carried, "time", None)
+
     def landed(self, lanes):
         """The rays `lanes` (M,) for what happens where they hit: origins and densities have done their work."""
         return Rays(

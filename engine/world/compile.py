@@ -15,6 +15,7 @@ from .lights import Lights
 from .materials import Materials
 from .media import Media
 from .movers import Movers, Moving
+from .moving_lamps import MovingLamps
 from .passing import Passing
 from .placement import place
 
@@ -102,7 +103,10 @@ def compile_world(
     warnings = _report_unusable(usable)
     # A triangle without an area is never hit: leaving it out changes no picture. Emitters come last, but for what moves.
     rank = table.emission.any(axis=0)[material].astype(np.int8)
-    rank[sum(part.owner.size for part in still) :] = _MOVES
+    faces = sum(part.owner.size for part in still)
+    rank[faces:] = _MOVES
+    glow = table.emission.take(material[faces:], axis=1)
+    glowing = np.where(usable[faces:], corners[:, :, faces:], 0) if glow.any() else None
     keep = np.nonzero(usable & (double_area > 0))[0]
     keep = keep[np.argsort(rank[keep], kind="stable")]
     rank = rank[keep]
@@ -128,6 +132,8 @@ def compile_world(
     emitters = Emitters.of(
         vertices, indices[:, last], normal[:, last], table.emission.take(material[last], axis=1), owner[keep][last]
     )
+    if glowing is not None:
+        emitters = emitters.followed_by(MovingLamps.of(movers, moving, glowing, glow, keep[triangles.first_moving :] - faces))
     # Asked for with every feature there is, it may still be missing or black.
     shines = has_environment and scene.world.environment is not None and scene.world.environment.gives_light
     environment = Environment.of(scene.world) if shines else None

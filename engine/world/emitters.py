@@ -1,6 +1,6 @@
 """The triangles that emit, as lights: pairs that make a parallelogram are one light, the others one each."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -8,22 +8,25 @@ from ..arrays import Columns
 from ..constants import EPS32, LUMINANCE, PI
 from ..maths.patches import lift
 from ..maths.vectors import cross, length
+from .moving_lamps import MovingLamps
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Emitters:
-    """The emissive patches of a world: first the parallelograms, then the triangles, each object by object.
+    """The emissive patches of a world: first the parallelograms, then the triangles, then those that move, each object by object.
 
-    k               columns of `maths.patches`
+    k               columns of `maths.patches`; of those that move at the middle of the shutter
     parallelograms  how many of them are
     objects         (M,) ascending within each kind: which object a patch belongs to
-    patch           (E,) intp: the patch that each emissive triangle belongs to, in the order of the triangles
+    patch           (E,) intp: the patch that each emissive triangle which stands still belongs to, in the order of the triangles
+    moving          the `MovingLamps`; None where all stand still
     """
 
     k: Columns
     parallelograms: int
     objects: np.ndarray
     patch: np.ndarray
+    moving: MovingLamps | None = None
 
     @classmethod
     def of(cls, vertices, triangles, normal, radiance, owner):
@@ -59,10 +62,24 @@ class Emitters:
         )
         return cls(k, first.size, owner[lead], patch)
 
+    def followed_by(self, moving):
+        """With the `MovingLamps` after them."""
+        every = np.arange(moving.count)
+        middle, *others = (moving.at(every, np.full(every.size, time, np.float32)) for time in (0.5, 0.25, 0.75))
+        # What has no area in the middle may have one before: it must not be left out.
+        middle.area = np.max([k.area for k in (middle, *others)], axis=0)
+        k = Columns(**{name: np.concatenate((column, getattr(middle, name)), axis=-1) for name, column in vars(self.k).items()})
+        return replace(self, k=k, objects=np.concatenate((self.objects, moving.owner)), moving=moving)
+
     @property
     def count(self):
         """How many patches there are."""
         return self.objects.size
+
+    @property
+    def still(self):
+        """How many of them stand still: the first ones."""
+        return self.count - (self.moving.count if self.moving else 0)
 
     def power(self):
         """Radiant flux of both sides, luminance, in units of render space squared, (M,) float64."""

@@ -28,19 +28,26 @@ class Group:
     count: int
     is_met: bool = True
 
-    def sample(self, row, p, u2):
-        """A point on the lights `row` (N,) of the group, or on its only light (None): see `interfaces.Light.sample`."""
-        wi, distance, E, pdf = self.light.sample(self._rows(row), p, u2)
+    def sample(self, row, p, u2, time):
+        """A point on the lights `row` (N,) of the group at `time` (N,), or on its only light (None): see `interfaces.Light.sample`."""
+        wi, distance, E, pdf = self.light.sample(self._rows(row, time), p, u2)
         return wi, distance, E, pdf if self.is_met else np.full_like(pdf, np.inf)
 
-    def sample_middle(self, row, p, u2):
+    def sample_middle(self, row, p, u2, time):
         """The same for the middle of the lights; u2 (2, N) counts for those that have none."""
-        k = self._rows(row)
+        k = self._rows(row, time)
         middle = getattr(self.light, "middle", None)
         return self.light.sample(k, p, np.broadcast_to(middle(k), u2.shape) if middle else u2)
 
-    def _rows(self, row):
+    def _rows(self, row, time):
         return self.k if row is None or self.count == 1 else self.k.take(row)
+
+
+class MovingGroup(Group):
+    """Lights that move; `k` are the `MovingLamps`."""
+
+    def _rows(self, row, time):
+        return self.k.at(np.broadcast_to(0 if row is None else row, time.shape), time)
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,9 +98,11 @@ class Lights:
             groups.append(Group(Environment, environment, len(lamps), 1))
         first_patch = sum(group.count for group in groups)
         split = emitters.parallelograms
-        for kind, patches in ((ParallelogramLight, slice(0, split)), (TriangleLight, slice(split, emitters.count))):
+        for kind, patches in ((ParallelogramLight, slice(0, split)), (TriangleLight, slice(split, emitters.still))):
             if patches.stop > patches.start:
                 groups.append(Group(kind, emitters.k.part(patches), first_patch + patches.start, patches.stop - patches.start))
+        if emitters.moving:
+            groups.append(MovingGroup(TriangleLight, emitters.moving, first_patch + emitters.still, emitters.moving.count))
         if not groups:
             return cls((), None, 0, OnlyLight(), (), ())
         hittable = tuple(_hittable(lamps, groups))
@@ -111,16 +120,19 @@ class Lights:
         """Whether there is nothing to sample."""
         return not self.groups
 
-    def sample(self, index, p, u2):
-        """A point on light `index` (N,), or on the only light (None): see `interfaces.Light.sample`."""
-        return self._of_groups(Group.sample, index, p, u2)
+    def sample(self, index, p, u2, time=None):
+        """A point on light `index` (N,), or on the only light (None), at `time` (N,): see `interfaces.Light.sample`.
 
-    def sample_middle(self, index, p, u2):
+        Where nothing moves the time is None.
+        """
+        return self._of_groups(Group.sample, index, p, u2, time)
+
+    def sample_middle(self, index, p, u2, time=None):
         """The same for the middle of light `index`, (N,) or an integer."""
         if not isinstance(index, int):
-            return self._of_groups(Group.sample_middle, index, p, u2)
+            return self._of_groups(Group.sample_middle, index, p, u2, time)
         group = next(group for group in self.groups if index < group.first + group.count)
-        return group.sample_middle(np.array([index - group.first]), p, u2)
+        return group.sample_middle(np.array([index - group.first]), p, u2, time)
 
     @property
     def count(self):
@@ -132,16 +144,17 @@ class Lights:
         """Whether every light can be shrunk to its middle."""
         return all(hasattr(group.light, "middle") for group in self.groups)
 
-    def _of_groups(self, sample, index, p, u2):
+    def _of_groups(self, sample, index, p, u2, time):
         if len(self.groups) == 1:
-            return sample(self.groups[0], index, p, u2)
+            return sample(self.groups[0], index, p, u2, time)
         wi, E = np.empty_like(p), np.empty_like(p)
         distance, pdf = np.empty_like(p[0]), np.empty_like(p[0])
         for group in self.groups:
             lanes = np.nonzero((index >= group.first) & (index < group.first + group.count))[0]
             if not lanes.size:
                 continue
-            sampled = sample(group, index.take(lanes) - group.first, p.take(lanes, axis=1), u2.take(lanes, axis=1))
+            row, when = index.take(lanes) - group.first, None if time is None else time.take(lanes)
+            sampled = sample(group, row, p.take(lanes, axis=1), u2.take(lanes, axis=1), when)
             wi[:, lanes], distance[lanes], E[:, lanes], pdf[lanes] = sampled
         return wi, distance, E, pdf
 

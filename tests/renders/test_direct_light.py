@@ -158,7 +158,7 @@ def test_counting_catches_shadow_rays_that_share_with_nobody(monkeypatch):
     """The mutant weighs shadow rays as if scattered rays looked for the lights, beyond the 16 for which they do."""
     lights = [AreaLight(name=f"{i}", world_from_light=OVERHEAD, radiance=(1 / 17,) * 3) for i in range(17)]
     scene = h.receiver(lights, distance=0.5)
-    monkeypatch.setattr(Group, "sample", lambda self, row, p, u2: self.light.sample(self.k.take(row), p, u2))
+    monkeypatch.setattr(Group, "sample", lambda self, row, p, u2, time: self.light.sample(self.k.take(row), p, u2))
     assert not h.mean_is(irradiances(scene)[0], SQUARE, floor=0.5)
 
 

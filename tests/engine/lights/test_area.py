@@ -115,7 +115,7 @@ def test_the_polygon_formula_catches_one_percent_and_a_light_sampled_in_part(mon
     assert h.mean_is(emitted_irradiances(world, p, normal), truth, floor=1e-5)
     assert not h.mean_is(emitted_irradiances(world, p, normal, n=200_000), truth * 1.01, floor=1e-5)
     sample = type(world.lights).sample
-    monkeypatch.setattr(type(world.lights), "sample", lambda self, index, p, u2: sample(self, index, p, u2 * np.float32(0.7)))
+    monkeypatch.setattr(type(world.lights), "sample", lambda self, index, p, u2, time=None: sample(self, index, p, u2 * np.float32(0.7)))
     assert not h.mean_is(emitted_irradiances(world, p, normal), truth, floor=1e-5)
 
 
