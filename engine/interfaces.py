@@ -79,7 +79,7 @@ class SpecularBsdf(Lobe, Protocol):
 
         The weight, (3, 1) where it is the same for all lanes, is 0 where there is no such direction: beyond the critical
         angle nothing is refracted. A table `k` whose `ior` is (3, N), an index for each channel, gets a refracted
-        direction for each.
+        direction for each; the first has all the light where they are the same.
         """
 
 
@@ -235,6 +235,7 @@ class Integrator(Protocol):
 
     is_complete     it finds all light, so its pictures are those of path tracing but for the noise
     samples_lights  shadow rays look for lights; else only scattered rays find them
+    splits_white    dispersion sends a ray for each channel; else every path has a wavelength
     tints_glass     shadow rays pass specular surfaces that transmit, weakened by their transmittance; and what passes
                     straight on is a ray of its own, as all branches of specular lobes are
     on_surface      the stages (plan, rays, surface, reflection, film) that do it
@@ -244,6 +245,7 @@ class Integrator(Protocol):
     label: str
     is_complete: bool
     samples_lights: bool
+    splits_white: bool
     tints_glass: bool
     on_surface: tuple
 

@@ -19,6 +19,7 @@ CAMERA_MOTION = "camera motion"
 OBJECT_MOTION = "object motion"
 TRANSPARENCY = "transparency"
 TINTED_SHADOWS = "tinted shadows"
+DISPERSION = "dispersion"
 
 MEANING = {
     GEOMETRY: "triangles to intersect",
@@ -37,6 +38,7 @@ MEANING = {
     OBJECT_MOTION: "objects that move or deform while the shutter is open, met at each path's own time",
     TRANSPARENCY: "surfaces that rays may pass straight on",
     TINTED_SHADOWS: "surfaces that weaken light on its straight way to others instead of blocking it",
+    DISPERSION: "indices of refraction that depend on the wavelength",
 }
 
 

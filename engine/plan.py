@@ -8,7 +8,7 @@ from .arrays import Columns, columns
 from .interfaces import is_straight
 from .registry import FILTERS, INTEGRATORS, PASSES, SAMPLERS
 from .scene.settings import Settings
-from .wavefront import media
+from .wavefront import dispersion, media
 from .wavefront.adaptive import AdaptiveTile
 from .wavefront.camera_rays import bladed_aperture, round_aperture, through_the_lens, through_the_pinhole
 from .wavefront.clip import clip_row, start_in_range, to_the_end_of_range
@@ -108,7 +108,8 @@ class Plan:
         smooth = needs.SMOOTH_NORMALS in requirements
         integrator = INTEGRATORS[settings.integrator]
         absorbs, is_nested = needs.ABSORPTION in requirements, needs.NESTED_MEDIA in requirements
-        has_media = absorbs or is_nested
+        has_media, disperses = absorbs or is_nested, needs.DISPERSION in requirements
+        has_wavelength = disperses and not integrator.splits_white
         has_choice, has_environment = needs.LIGHT_CHOICE in requirements, needs.ENVIRONMENT in requirements
         steps = settings.motion_steps if needs.OBJECT_MOTION in requirements else 0
         passes = needs.TRANSPARENCY in requirements and not integrator.tints_glass
@@ -116,7 +117,9 @@ class Plan:
         passing_of = partial(Passing.of, tints_glass=integrator.tints_glass) if passes or tints else None
         # What rays pass on their way is no lobe for them to choose where they end.
         bsdfs = tuple(bsdf for bsdf in requirements.plugins("bsdf") if not (passes and is_straight(bsdf)))
-        world = compile_world(scene, bsdfs, smooth, has_choice, integrator.samples_lights, has_media, has_environment, steps, passing_of)
+        world = compile_world(
+            scene, bsdfs, smooth, has_choice, integrator.samples_lights, has_media, has_environment, steps, passing_of, disperses
+        )
         can_reflect = bool(world.materials.lobes)
         on_rays = (
             *((media.add_light_hits_in_media if absorbs else add_light_hits,) if needs.LIGHT_HITS in requirements else ()),
@@ -125,6 +128,10 @@ class Plan:
             *((add_emission,) if needs.EMISSIVE_MESHES in requirements and world.emitters.still else ()),
             *((add_moving_emission,) if needs.EMISSIVE_MESHES in requirements and world.emitters.moving else ()),
         )
+        adjust_reflection = (media.relative_indices,) if is_nested else ()
+        if disperses:
+            places = dispersion.one_wavelength if has_wavelength else dispersion.three_wavelengths
+            adjust_reflection = (dispersion.indices(media.around if is_nested else dispersion.vacuum, places),)
         can_sample = integrator.samples_lights and world.materials.rough_lobes and not world.lights.is_empty
         is_clipped = needs.CLIP_RANGE in requirements
         follows = needs.CAMERA_MOTION in requirements
@@ -144,6 +151,7 @@ class Plan:
             carry=(
                 *(((TIME, start_time),) if follows or world.movers else ()),
                 *((("inside", media.in_no_body),) if has_media else ()),
+                *((("wavelength", dispersion.white),) if has_wavelength else ()),
             ),
             aim=through_the_lens if needs.LENS in requirements else through_the_pinhole,
             aperture=bladed_aperture if camera.lens.blades else round_aperture,
@@ -166,7 +174,7 @@ class Plan:
             on_passing=(media.pass_boundary,) if has_media else (),
             interact=interact_at_time if world.movers else interact_at_rest,
             adjust_surface=(),
-            adjust_reflection=(media.relative_indices,) if is_nested else (),
+            adjust_reflection=adjust_reflection,
             on_surface=integrator.on_surface if can_sample else (),
             on_leaving=(media.change_media,) if has_media else (),
             first_hits=tuple(p for p in chosen if p.at_first_hit),

@@ -46,6 +46,8 @@ class Requirements:
         for material in dict.fromkeys(material for o in bodies for material in inside_of(o)):
             if material.medium is not None and any(material.medium.absorption):
                 ask(needs.ABSORPTION, material.name)
+            if any(getattr(lobe, "spread", 0) and any(lobe.albedo()) for lobe in material.lobes):
+                ask(needs.DISPERSION, material.name)
         if len(camera.motion):
             ask(needs.CAMERA_MOTION, camera.name)
         for o in scene.objects:

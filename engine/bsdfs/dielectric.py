@@ -8,6 +8,9 @@ Without Fresnel the shares are the lecture's constants: k_r is reflected and k_t
 reflected all of it is, k_r + k_t. One of the two is followed, with probability in proportion to the constants (their
 sums over the channels). Radiance is scaled all the same: a body looks as it does in the lecture, since what is lost on
 the way in is won on the way out.
+
+Dispersion is Cauchy's n = A + B / wavelength^2, through the index n_d that is given and the Abbe number V = (n_d - 1) / (n_F - n_C):
+B = (n_d - 1) / (V (1 / F^2 - 1 / C^2)) and A = n_d - B / d^2, with Fraunhofer's lines F, d, C = 486.13, 587.56, 656.27 nm.
 """
 
 from dataclasses import dataclass
@@ -16,6 +19,7 @@ import numpy as np
 
 from ..errors import SceneError
 from ..maths.fresnel import fresnel_dielectric, refract
+from ..maths.spectrum import HIGHEST, LOWEST, place
 from ..maths.vectors import dot, reflect
 from . import registry
 
@@ -30,6 +34,7 @@ class Dielectric:
     reflectance    k_r, tint of what is reflected; 1 is physical
     transmittance  k_t, tint of what passes the surface, each time; 1 is physical
     is_fresnel     whether Fresnel's equations share the light; else k_r and k_t themselves are the shares
+    abbe           Abbe number of what is behind the surface: small numbers spread colours, 64 is crown glass, 30 flint; inf: none do
     """
 
     key = "dielectric"
@@ -41,6 +46,12 @@ class Dielectric:
     reflectance: tuple = (1.0, 1.0, 1.0)
     transmittance: tuple = (1.0, 1.0, 1.0)
     is_fresnel: bool = True
+    abbe: float = float("inf")
+
+    @property
+    def spread(self):
+        """How much more the index is at Fraunhofer's line F than at C."""
+        return (self.ior - 1) / self.abbe
 
     @classmethod
     def black(cls):
@@ -52,11 +63,19 @@ class Dielectric:
             "reflectance": self.reflectance,
             "transmittance": self.transmittance,
             "is_fresnel": bool(self.is_fresnel),
+            "spread": self.spread,
         }
 
     def check(self, owner):
         if not 1e-3 <= self.ior <= 1e3:
             raise SceneError(f"material '{owner}': index of refraction is {self.ior}, allowed: 0.001 to 1000")
+        if not self.abbe >= 1:
+            raise SceneError(f"material '{owner}': Abbe number is {self.abbe}, allowed: from 1 on, inf for no dispersion")
+        if min(self.ior + self.spread * place(end) for end in (LOWEST, HIGHEST)) < 1e-3:
+            raise SceneError(
+                f"material '{owner}': an index of refraction of {self.ior} with the Abbe number {self.abbe} leaves 0.001 to 1000 "
+                f"between {LOWEST:g} and {HIGHEST:g} nm"
+            )
         for name in ("reflectance", "transmittance"):
             if not all(0 <= c < float("inf") for c in getattr(self, name)):
                 raise SceneError(f"material '{owner}': {name} is {getattr(self, name)}, allowed: three finite numbers from 0 on")
@@ -85,8 +104,12 @@ class Dielectric:
         reflected = (reflect(wo, n), k_r)
         if eta.ndim == 1:
             return reflected, (refract(wo, n, eta), k_t)
-        # An index for each channel: each goes its own way.
-        return reflected, *((refract(wo, n, eta[c]), k_t * np.eye(3, dtype=k_t.dtype)[:, c, None]) for c in range(3))
+        # An index for each channel: each goes its own way, but all together with the first where they are the same.
+        together = (eta == eta[0]).all(axis=0)
+        first = np.arange(3)[:, None] == 0
+        return reflected, *(
+            (refract(wo, n, eta[c]), k_t * np.where(together, c == 0, np.roll(first, c, axis=0))) for c in range(3)
+        )
 
 
 def _with_constants(k, share):

@@ -18,6 +18,7 @@ class Distributed:
     label = "Distributed"
     is_complete = True
     samples_lights = True
+    splits_white = False
     tints_glass = False
     on_surface = (add_distributed_light,)
 

@@ -14,6 +14,7 @@ class Path:
     label = "Path Tracing"
     is_complete = True
     samples_lights = True
+    splits_white = False
     tints_glass = False
     on_surface = (add_direct_light,)
 

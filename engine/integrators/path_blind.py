@@ -15,6 +15,7 @@ class BlindPath:
     label = "Path Tracing without Light Sampling"
     is_complete = True
     samples_lights = False
+    splits_white = False
     tints_glass = False
     on_surface = ()
 

@@ -18,6 +18,7 @@ class NaivePath:
     label = "Naive Path Tracing"
     is_complete = True
     samples_lights = False
+    splits_white = False
     tints_glass = False
     on_surface = ()
 

@@ -19,6 +19,7 @@ class Whitted:
     label = "Whitted"
     is_complete = False
     samples_lights = True
+    splits_white = True
     tints_glass = True
     on_surface = (add_hard_light,)
 

@@ -21,6 +21,7 @@ class WhittedPhong:
     label = "Whitted (Phong Illumination)"
     is_complete = False
     samples_lights = True
+    splits_white = True
     tints_glass = True
     on_surface = (add_illumination,)
 

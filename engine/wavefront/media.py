@@ -7,11 +7,8 @@ there (Schmidt and Budge 2002, "Simple Nested Dielectrics in Ray Traced Images",
 other boundaries are between the medium and the strongest of what is else around.
 """
 
-import dataclasses
-
 import numpy as np
 
-from ..arrays import Columns
 from ..maths.vectors import dot
 from ..world.interaction import leave_on_either_side
 from .escape import light_hits, light_hits_beyond
@@ -56,7 +53,7 @@ def start_inside(closest):
     """
 
     def count_bodies(plan, rays):
-        is_one = vars(rays.carried).keys() == {"inside"} and (rays.o == rays.o[:, :1]).all()
+        is_one = "time" not in vars(rays.carried) and (rays.o == rays.o[:, :1]).all()
         lanes = np.arange(1 if is_one else rays.slot.size)
         counts = np.zeros((plan.world.media.count, lanes.size), np.int8)
         o, carried = rays.o.take(lanes, axis=1), rays.carried.take(lanes)
@@ -123,19 +120,16 @@ def occluded_in_media(occluded, closest):
 
 
 def relative_indices(plan, rays, surface, reflection):
-    """The stage that gives every boundary the index of its medium over that of what is around the body."""
+    """The stage that gives boundaries their indices of refraction over those of what is around their bodies."""
+    ior, _ = around(plan, rays, surface)
+    return reflection.with_indices(lambda k: k.ior / ior, rays.slot.size)
+
+
+def around(plan, rays, surface):
+    """What is around the bodies at whose boundaries `rays` are: index of refraction (N,), and its spread (N,)."""
     media = plan.world.media
-    around = media.ior.take(surrounding(rays.carried.inside, media.behind.take(surface.prim), surface.is_front))
-    specular = tuple(_with_index(lobe, lobe.k.ior / around) if hasattr(lobe.k, "ior") else lobe for lobe in reflection.specular)
-    return dataclasses.replace(reflection, specular=specular)
-
-
-def _with_index(lobe, ior):
-    """The lobe with indices `ior` (N,) or (3, N); all its parameters then have a column for every lane."""
-    n = ior.shape[-1]
-    k = Columns(**{name: np.broadcast_to(column, (*column.shape[:-1], n)) for name, column in vars(lobe.k).items()})
-    k.ior = ior
-    return dataclasses.replace(lobe, k=k)
+    row = surrounding(rays.carried.inside, media.behind.take(surface.prim), surface.is_front)
+    return media.ior.take(row), media.spread.take(row)
 
 
 def change_media(plan, rays, surface, scattered):

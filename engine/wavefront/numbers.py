@@ -15,6 +15,7 @@ class Dimension(IntEnum):
     FILTER = 0
     LENS = 1
     TIME = 2
+    WAVELENGTH = 3
     LIGHT = 8
     LOBE = 9
     DIRECTION = 10

@@ -80,18 +80,28 @@ class CompiledWorld:
 # Corners may be anything; what is not finite after all is found by `_measure` and told.
 @np.errstate(over="ignore", invalid="ignore")
 def compile_world(
-    scene, bsdfs, smooth, has_choice, samples_lights=True, has_media=False, has_environment=False, motion_steps=0, passing_of=None
+    scene,
+    bsdfs,
+    smooth,
+    has_choice,
+    samples_lights=True,
+    has_media=False,
+    has_environment=False,
+    motion_steps=0,
+    passing_of=None,
+    disperses=False,
 ):
     """`scene` (validated) as a `CompiledWorld`.
 
     `bsdfs` are the lobes to make room for, `smooth` says that shading normals are wanted, `has_choice` that there may
     be more than one light, `samples_lights` that shadow rays look for them, `has_media` that it matters what is inside of
-    bodies, `has_environment` that the world has a picture that gives light, and `passing_of` (None: nothing passes) makes the
-    `Passing` of the materials. Deforming meshes take `motion_steps` shapes,
-    and without any all is as at the middle of the shutter. Raises SceneError where the geometry does not fit into memory.
+    bodies, `has_environment` that the world has a picture that gives light, `disperses` that indices depend on the
+    wavelength, and `passing_of` (None: nothing passes) makes the `Passing` of the materials. Deforming meshes take
+    `motion_steps` shapes, and without any all is as at the middle of the shutter. Raises SceneError where the geometry does
+    not fit into memory.
     """
     materials, row = _number_materials(scene)
-    table = Materials.of(materials, bsdfs)
+    table = Materials.of(materials, bsdfs, () if disperses else ("spread",))
     still = place([(i, o) for i, o in enumerate(scene.objects) if o.is_still or not motion_steps], row, smooth)
     changing = [(i, o) for i, o in enumerate(scene.objects) if motion_steps and o.mesh.triangles.size and not o.is_still]
     moving = [Moving.of(i, o, row, smooth, motion_steps) for i, o in changing]

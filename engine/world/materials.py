@@ -1,6 +1,6 @@
 """Materials as tables of lobes: every surface point reflects by the sum of its material's lobes."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -39,14 +39,15 @@ class Materials:
     kind: type
 
     @classmethod
-    def of(cls, materials, bsdfs):
-        """Compile `materials`; `bsdfs` are the plug-ins to make room for, wanted or not."""
+    def of(cls, materials, bsdfs, without=()):
+        """Compile `materials`; `bsdfs` are the plug-ins to make room for, wanted or not, `without` parameters nobody asks for."""
         bsdfs = sorted(bsdfs, key=lambda bsdf: bsdf.is_specular)
         slots = [(bsdf, i) for bsdf in bsdfs for i in range(max(1, max(_count(m, bsdf) for m in materials)))]
         lobes, albedos = [], np.zeros((len(slots), len(materials)))
         for slot, (bsdf, i) in enumerate(slots):
             chosen = [next(iter([lobe for lobe in m.lobes if type(lobe) is bsdf][i:]), bsdf.black()) for m in materials]
-            lobes.append(Lobe(bsdf, columns([lobe.row() for lobe in chosen])))
+            rows = [{name: value for name, value in lobe.row().items() if name not in without} for lobe in chosen]
+            lobes.append(Lobe(bsdf, columns(rows)))
             albedos[slot] = [np.dot(LUMINANCE, lobe.albedo()) for lobe in chosen]
         total = albedos.sum(axis=0)
         shares = np.where(total > 0, albedos / np.where(total > 0, total, 1), 1 / max(len(slots), 1)).astype(np.float32)
@@ -151,6 +152,10 @@ class Reflection:
         for lobe in self.specular:
             yield from _at_surface(_all(lobe.bsdf.branches), lobe.k, surface, lanes)
 
+    def with_indices(self, find, n):
+        """The same with the indices of refraction `find`(k), (N,) or (3, N), or (3, 1) for all n lanes, in lobes that have one."""
+        return replace(self, specular=tuple(_with_index(lobe, find, n) if hasattr(lobe.k, "ior") else lobe for lobe in self.specular))
+
     def without_specular(self):
         """The rough lobes alone."""
         if not self.specular:
@@ -214,6 +219,13 @@ class TwoSided(Reflection):
         is_behind = twice >= 1
         w = to_world(n, square_to_uniform_hemisphere(np.stack((twice - is_behind, u2[1]))))
         return np.where(is_behind, -w, w)
+
+
+def _with_index(lobe, find, n):
+    k = Columns(**{name: np.broadcast_to(column, (*column.shape[:-1], n)) for name, column in vars(lobe.k).items()})
+    ior = find(lobe.k)
+    k.ior = np.broadcast_to(ior, (*ior.shape[:-1], n))
+    return replace(lobe, k=k)
 
 
 def _all(branches):

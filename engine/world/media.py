@@ -18,12 +18,14 @@ class Media:
     absorption  (3, M + 1) float32, per unit of render space
     absorbs     (M + 1,) bool: whether it does
     ior         (M + 1,) float32 index of refraction
+    spread      (M + 1,) float32: how much more it is at Fraunhofer's line F than at C
     behind      (F,) intp: the medium behind each triangle, -1 where there is none
     """
 
     absorption: np.ndarray
     absorbs: np.ndarray
     ior: np.ndarray
+    spread: np.ndarray
     behind: np.ndarray
 
     @property
@@ -51,14 +53,16 @@ class Media:
         is_open[[row[m] for materials in ranked for m in materials]] = True
         behind = np.array([rank[materials] for materials in worn] or [-1], np.intp).take(owner)
         absorption = np.array([media[materials].absorption for materials in ranked] + [(0, 0, 0)], np.float64).T / scale
+        ior, spread = np.array([*map(_index, ranked), (1, 0)], np.float64).T
         return cls(
             absorption=absorption.astype(np.float32),
             absorbs=absorption.any(axis=0),
-            ior=np.array([*map(_index, ranked), 1], np.float32),
+            ior=ior.astype(np.float32),
+            spread=spread.astype(np.float32),
             behind=np.where(is_open.take(material), behind, -1),
         )
 
 
 def _index(materials):
-    """The index of refraction of what is inside: that of the first surface that has one."""
-    return next((lobe.ior for m in materials for lobe in m.lobes if hasattr(lobe, "ior") and any(lobe.albedo())), 1.0)
+    """Index of refraction and spread of what is inside: those of the first surface that has them."""
+    return next(((lobe.ior, lobe.spread) for m in materials for lobe in m.lobes if hasattr(lobe, "ior") and any(lobe.albedo())), (1, 0))

@@ -43,6 +43,7 @@ BLACK_LOBE = h.thing(h.box(), Material(name="m", lobes=(Lambert((0.0, 0.0, 0.0))
 
 GLASS = Material(name="glass", lobes=(Dielectric(1.5),))
 WINE = Material(name="wine", lobes=(Dielectric(1.3),), medium=Medium(absorption=(0.1, 2.0, 3.0)))
+FLINT = Material(name="flint", lobes=(Dielectric(1.7, abbe=25.0),))
 STRONG = Material(name="strong", lobes=(Dielectric(1.7),), medium=Medium(priority=3))
 LEFT, RIGHT = (h.box((x, -0.5, 0), (x + 0.9, 0.5, 1), name=name) for x, name in ((-1, "left"), (0, "right")))
 INNER = h.box((-0.9, -0.4, 0.1), (-0.2, 0.3, 0.8), name="inner")
@@ -124,6 +125,7 @@ TABLE = {
             "bsdf lambert": ["tulle"],
         },
     ),
+    "prism": (h.scene([h.thing(LEFT, FLINT)]), {"geometry": ["left"], "bsdf dielectric": ["flint"], "dispersion": ["flint"]}),
     "bare object": (h.scene([h.Object(name="bare", mesh=h.quad())]), {"geometry": ["bare"]}),
 }
 
@@ -179,6 +181,8 @@ SCENES = {
     "glass": h.scene([h.thing(LEFT, GLASS), FLOOR], [BULB], world=0.5),
     "two glasses": h.scene([h.thing(LEFT, GLASS), h.thing(RIGHT, STRONG), FLOOR], [BULB], world=0.5),
     "wine": h.scene([h.thing(LEFT, WINE), FLOOR], [AreaLight(world_from_light=h.affine(translation=(0, 0, 3)))], world=0.5),
+    "prism": h.scene([h.thing(LEFT, FLINT), FLOOR], [BULB], world=0.5),
+    "prism around glass": h.scene([h.thing(LEFT, FLINT), h.thing(INNER, STRONG), FLOOR], [BULB], world=0.5),
     "glass in glass": h.scene([h.thing(LEFT, GLASS), h.thing(INNER, STRONG), FLOOR], [BULB], world=0.5),
     "seen, not lit": h.scene([MATTE, FLOOR]),
     "veil": h.scene([MATTE, FLOOR, CURTAIN], [BULB]),
@@ -280,9 +284,10 @@ OPAQUE = {"travel_through", "unblocked_through", "add_light_hits_beyond"}
         ("world", {"add_light_hits", "add_emission", "add_direct_light", "smooth_normals"}),
         ("panel", {"add_background", "add_emission", "smooth_normals"}),
         ("smooth", {"add_background", "add_light_hits", "add_emission", "flat_normals"}),
-        ("glass", {"relative_indices", "change_media", "absorb", "count_bodies", "add_light_hits_in_media"}),
+        ("prism", {"relative_indices", "change_media", "absorb", "count_bodies"}),
+        ("glass", {"find_indices", "relative_indices", "change_media", "absorb", "count_bodies", "add_light_hits_in_media"}),
         ("two glasses", {"relative_indices", "change_media", "absorb", "count_bodies", "add_light_hits_in_media"}),
-        ("wine", {"relative_indices", "add_light_hits"}),
+        ("wine", {"find_indices", "relative_indices", "add_light_hits"}),
         ("glass in glass", {"absorb", "add_light_hits", "add_light_hits_in_media"}),
         ("seen, not lit", {"add_background", "add_light_hits", "add_emission", "add_direct_light"}),
     ],
