@@ -2,7 +2,7 @@
 
 import importlib
 
-_MODULES = ("properties", "light_settings", "render_engine", "panels", "builtin_panels")
+_MODULES = ("properties", "light_settings", "material_settings", "render_engine", "panels", "builtin_panels")
 _registered = []
 
 

@@ -32,6 +32,7 @@ _OF_EEVEE = (
     "DATA_PT_camera_dof_aperture",
     "EEVEE_MATERIAL_PT_context_material",
     "EEVEE_MATERIAL_PT_surface",
+    "EEVEE_MATERIAL_PT_volume",
     "EEVEE_WORLD_PT_surface",
 )
 _joined = []

@@ -238,6 +238,23 @@ class GLANZ_LIGHT_PT_light(GlanzPanel, bpy.types.Panel):
             column.prop(context.object, "visible_camera", text="Visible to Camera")
 
 
+class GLANZ_MATERIAL_PT_medium(GlanzPanel, bpy.types.Panel):
+    """What is inside of objects that wear the material, beside the volume of its nodes."""
+
+    bl_label = "Medium"
+    bl_context = "material"
+    bl_options = frozenset({"DEFAULT_CLOSED"})
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and context.material is not None
+
+    def draw(self, context):
+        column = self.column()
+        for name in ("priority", "abbe"):
+            column.prop(context.material.glanz, name)
+
+
 _CLASSES = (
     GLANZ_CAMERA_PT_panorama,
     GLANZ_RENDER_PT_problem,
@@ -247,6 +264,7 @@ _CLASSES = (
     GLANZ_RENDER_PT_motion_blur,
     GLANZ_OBJECT_PT_motion_blur,
     GLANZ_RENDER_PT_performance,
+    GLANZ_MATERIAL_PT_medium,
     GLANZ_VIEWLAYER_PT_passes,
     GLANZ_VIEWLAYER_PT_override,
     GLANZ_LIGHT_PT_light,

@@ -1,10 +1,13 @@
 """Blender's materials as the engine's."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from ...engine import Material, Transparent
 from .closure import Closure, colours_of, diffuse, merged, scaled_lobe, with_colours
 from .findings import Findings
+from .inside import medium_of, with_dispersion
 from .nodes import Reader, has_nodes, output_node
 from .principled import principled_lobes
 from .shaders import surface_of
@@ -28,13 +31,13 @@ def export_material(material, findings):
         findings.note("the node tree has no active output, so the material is black", owner)
         return Material(name=material.name)
     reader = Reader(owner, findings)
-    for identifier, note in (("Displacement", "displacement is left out"), ("Volume", "the volume is left out")):
-        if reader.is_linked(output, identifier):
-            findings.note(note, owner)
+    if reader.is_linked(output, "Displacement"):
+        findings.note("displacement is left out", owner)
     surface = surface_of(output, owner, findings)
     if not getattr(material, "use_transparent_shadow", True) and any(isinstance(lobe, Transparent) for lobe in surface.lobes):
         findings.note("Transparent Shadows is off, but transparent surfaces let shadow rays pass all the same", owner)
-    return _checked(material.name, owner, surface, findings)
+    checked = _checked(material.name, owner, surface, findings)
+    return replace(checked, lobes=with_dispersion(checked.lobes, material), medium=medium_of(material, output, owner, findings))
 
 
 def is_volume_only(material):

@@ -7,6 +7,8 @@ there (Schmidt and Budge 2002, "Simple Nested Dielectrics in Ray Traced Images",
 other boundaries are between the medium and the strongest of what is else around.
 """
 
+import dataclasses
+
 import numpy as np
 
 from ..maths.vectors import dot

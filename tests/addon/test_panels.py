@@ -38,7 +38,8 @@ def _context(ob=None):
     light = ob.data if ob and ob.type == "LIGHT" else None
     camera = ob.data if ob and ob.type == "CAMERA" else None
     layer = bpy.context.view_layer
-    return SimpleNamespace(engine=scene.render.engine, scene=scene, view_layer=layer, object=ob, light=light, camera=camera)
+    shown = {"light": light, "camera": camera, "material": getattr(ob, "active_material", None)}
+    return SimpleNamespace(engine=scene.render.engine, scene=scene, view_layer=layer, object=ob, **shown)
 
 
 def _drawn(name, ob=None):
@@ -110,6 +111,13 @@ def test_a_spot_shows_the_cone_or_the_exponent():
     drawn = _drawn("GLANZ_LIGHT_PT_light", ob)
     assert {"exponent", "shadow_soft_size"} <= set(drawn)
     assert not {"spot_size", "spot_blend"} & set(drawn)
+
+
+def test_what_is_inside_of_a_material_can_be_edited():
+    ob = blender.add_plane()
+    assert not OWN["GLANZ_MATERIAL_PT_medium"].poll(_context(ob))
+    ob.data.materials.append(bpy.data.materials.new("Glass"))
+    assert _drawn("GLANZ_MATERIAL_PT_medium", ob) == ["priority", "abbe"]
 
 
 @pytest.mark.parametrize("name", OWN)

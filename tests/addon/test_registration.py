@@ -20,7 +20,8 @@ def _traces():
     joined = (p.__name__ for p in builtin_panels._subclasses(bpy.types.Panel) if "GLANZ" in getattr(p, "COMPAT_ENGINES", ()))
     panels = {name for name in joined if not name.startswith(("GLANZ", "Glanz"))}
     own = {name for name in dir(bpy.types) if name.startswith("GLANZ")}
-    return panels, own, any(hasattr(owner, "glanz") for owner in (bpy.types.Scene, bpy.types.ViewLayer, bpy.types.Light))
+    owners = (bpy.types.Scene, bpy.types.ViewLayer, bpy.types.Light, bpy.types.Material)
+    return panels, own, any(hasattr(owner, "glanz") for owner in owners)
 
 
 def _is_engine(identifier):

@@ -1,0 +1,61 @@
+"""What is inside of objects: Blender's volume nodes, and Glanz's own settings of a material."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from ...engine import Dielectric, Medium
+from .nodes import Reader, input_by_identifier
+
+_DENSEST = 1e30
+"""Absorption [m^-1] beyond which products no longer fit into single precision."""
+
+
+def medium_of(material, output, owner, findings):
+    """The `Medium` inside of a material (evaluated) with this output node, or None where it is nothing but clear."""
+    reader = Reader(owner, findings)
+    absorption = _behind(reader, input_by_identifier(output, "Volume"))
+    clean = np.clip(np.nan_to_num(absorption, nan=0.0), 0.0, _DENSEST)
+    if not np.array_equal(clean, absorption):
+        findings.note("a colour or density of the volume is negative, above 1 or not finite and is cut off", owner)
+    priority = getattr(getattr(material, "glanz", None), "priority", 0)
+    return Medium(absorption=tuple(clean.tolist()), priority=priority) if clean.any() or priority else None
+
+
+def with_dispersion(lobes, material):
+    """`lobes` of which glass has the material's Abbe number, if any."""
+    abbe = getattr(getattr(material, "glanz", None), "abbe", 0.0)
+    return tuple(replace(lobe, abbe=max(abbe, 1.0)) if abbe > 0 and type(lobe) is Dielectric else lobe for lobe in lobes)
+
+
+def _behind(reader, socket):
+    """Absorption (3,) [m^-1] of whatever feeds a volume input."""
+    reader, _, output = reader.source(socket)
+    if output is None:
+        return np.zeros(3)
+    node = output.node
+    return _TABLE.get(node.type, _left_out)(reader.beyond(node), node)
+
+
+def _left_out(reader, node):
+    reader.note(f"the volume is left out: {node.bl_label} is not supported")
+    return np.zeros(3)
+
+
+def _absorption(reader, node):
+    """As Cycles has it: what a colour lacks is lost, at this density [m^-1]."""
+    return reader.number(node, "Density", 1.0) * (1 - np.array(reader.colour(node, "Color")))
+
+
+def _add(reader, node):
+    return _behind(reader, node.inputs[0]) + _behind(reader, node.inputs[1])
+
+
+def _mix(reader, node):
+    factor = min(max(reader.number(node, "Fac", default=0.5), 0.0), 1.0)
+    first, second = (_behind(reader, node.inputs[i]) for i in (1, 2))
+    return (1 - factor) * first + factor * second
+
+
+_TABLE = {"VOLUME_ABSORPTION": _absorption, "ADD_SHADER": _add, "MIX_SHADER": _mix}
+"""Node type -> function (reader, node) -> absorption."""
