@@ -15,8 +15,8 @@ class Medium:
                 (Schmidt and Budge 2002, "Simple Nested Dielectrics in Ray Traced Images")
 
     Of equal priorities the body with the smaller volume is there: a bubble inside of glass needs no priority. Meshes are
-    closed and do not cut through themselves; bodies overlap or keep apart, since faces that coincide cannot be told
-    from one. A glass of water is right if the water reaches a little into the wall and the glass has the higher priority.
+    closed and do not cut through themselves. Bodies that touch count as overlapping a little; a glass of water is right
+    where the water fits it, and also where it reaches into the wall and the glass has the higher priority.
     """
 
     absorption: tuple = (0.0, 0.0, 0.0)

@@ -13,11 +13,12 @@ from .environment import Environment
 from .frame import Frame
 from .lights import Lights
 from .materials import Materials
-from .media import Media
+from .media import Bodies, Media
 from .movers import Movers, Moving
 from .moving_lamps import MovingLamps
 from .passing import Passing
 from .placement import place
+from .touching import moved_apart
 
 FARTHEST = 1e12
 """In render space; Embree's robust test overflows from 3e12 on, and finds nothing."""
@@ -109,6 +110,10 @@ def compile_world(
     frame, vertices, indices, radius = _merge(still, moving, scene.camera.position)
     material = _concatenate([part.material for part in parts], 0).astype(np.intp)
     owner = _concatenate([part.owner for part in parts], 0).astype(np.intp)
+    bodies = Bodies.of(scene.objects) if has_media else None
+    if has_media:
+        is_still = np.arange(owner.size) < sum(part.owner.size for part in still)
+        vertices = moved_apart(vertices, indices, owner, bodies.layer.take(owner) * is_still)
     corners, double_area, normal, usable = _measure(vertices, indices)
     warnings = _report_unusable(usable)
     # A triangle without an area is never hit: leaving it out changes no picture. Emitters come last, but for what moves.
@@ -156,7 +161,7 @@ def compile_world(
         lights=Lights.of(scene.lights, environment, emitters, frame, radius, has_choice, samples_lights),
         emitters=emitters,
         background=np.array(scene.world.radiance, np.float32)[:, None],
-        media=Media.of(scene.objects, row, material, owner[keep], frame.scale) if has_media else None,
+        media=Media.of(bodies, row, material, owner[keep], frame.scale) if has_media else None,
         passing=passing_of(materials) if passing_of else None,
         warnings=warnings,
     )

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..scene.bodies import inside_of, volume
+from ..scene.bodies import inside_of, sharing_space, volume
 from ..scene.medium import Medium
 
 
@@ -34,11 +34,41 @@ class Media:
         return self.ior.size - 1
 
     @classmethod
-    def of(cls, objects, row, material, owner, scale):
-        """The media inside `objects`; `row` numbers the materials, `material` and `owner` (F,) belong to the triangles.
+    def of(cls, bodies, row, material, owner, scale):
+        """The media of `bodies`; `row` numbers the materials, `material` and `owner` (F,) belong to the triangles.
 
-        Objects that wear the same materials have the same medium. `scale` [m^-1] is that of render space.
+        `scale` [m^-1] is that of render space.
         """
+        is_open = np.zeros(len(row), bool)
+        is_open[[row[m] for materials in bodies.ranked for m in materials]] = True
+        media = [materials[0].medium or Medium() for materials in bodies.ranked]
+        absorption = np.array([medium.absorption for medium in media] + [(0, 0, 0)], np.float64).T / scale
+        ior, spread = np.array([*map(_index, bodies.ranked), (1, 0)], np.float64).T
+        return cls(
+            absorption=absorption.astype(np.float32),
+            absorbs=absorption.any(axis=0),
+            ior=ior.astype(np.float32),
+            spread=spread.astype(np.float32),
+            behind=np.where(is_open.take(material), bodies.rank.take(owner), -1),
+        )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Bodies:
+    """The objects of a scene that light gets into; those that wear the same materials have the same medium.
+
+    ranked  the materials of each medium, the strongest first
+    rank    (objects,) intp: the medium of each object, -1 where it has none
+    layer   (objects,) intp: how strong it is, 1 for the weakest; 0 for objects that share no space with another body
+    """
+
+    ranked: tuple
+    rank: np.ndarray
+    layer: np.ndarray
+
+    @classmethod
+    def of(cls, objects):
+        """The bodies among `objects`."""
         largest, worn, volumes = {}, [inside_of(o) for o in objects], {}
         for o, materials in zip(objects, worn):
             if materials:
@@ -46,21 +76,11 @@ class Media:
                     volumes[id(o.mesh)] = volume(o.mesh)
                 size = volumes[id(o.mesh)] * abs(np.linalg.det(o.world_from_object[:3, :3]))
                 largest[materials] = max(largest.get(materials, 0.0), size)
-        media = {materials: materials[0].medium or Medium() for materials in largest}
-        ranked = sorted(largest, key=lambda materials: (-media[materials].priority, largest[materials]))
-        rank = {materials: i for i, materials in enumerate(ranked)} | {(): -1}
-        is_open = np.zeros(len(row), bool)
-        is_open[[row[m] for materials in ranked for m in materials]] = True
-        behind = np.array([rank[materials] for materials in worn] or [-1], np.intp).take(owner)
-        absorption = np.array([media[materials].absorption for materials in ranked] + [(0, 0, 0)], np.float64).T / scale
-        ior, spread = np.array([*map(_index, ranked), (1, 0)], np.float64).T
-        return cls(
-            absorption=absorption.astype(np.float32),
-            absorbs=absorption.any(axis=0),
-            ior=ior.astype(np.float32),
-            spread=spread.astype(np.float32),
-            behind=np.where(is_open.take(material), behind, -1),
-        )
+        ranked = sorted(largest, key=lambda materials: (-(materials[0].medium or Medium()).priority, largest[materials]))
+        place = {materials: i for i, materials in enumerate(ranked)} | {(): -1}
+        rank = np.array([place[materials] for materials in worn] or [-1], np.intp)
+        sharing = {id(o) for o in sharing_space([o for o, materials in zip(objects, worn) if materials])}
+        return cls(tuple(ranked), rank, np.array([len(ranked) - i if id(o) in sharing else 0 for o, i in zip(objects, rank)] or [0]))
 
 
 def _index(materials):

@@ -18,7 +18,10 @@ from glanz.engine import (
     Requirements,
     needs,
 )
+from glanz.engine.constants import EPS32
 from glanz.engine.wavefront import continuation, media
+from glanz.engine.world.interaction import START_ULPS
+from glanz.engine.world.touching import moved_apart
 from glanz.tests import helpers as h
 
 CLEAR = Dielectric(1.0)
@@ -27,6 +30,8 @@ OPEN = Dielectric(1.5, (0.0,) * 3, (1.0,) * 3, is_fresnel=False)
 """Glass that reflects nothing, so that no path is left to chance."""
 NEAR = 2e-5
 """Rays start a little off their triangle, which they do not travel: half a millionth of its size and place."""
+GROWN = 2e-4
+"""Bodies that share space grow a few times as much."""
 DOWN = PerspectiveCamera.look_at((0.1, 0.2, 9), (0.1, 0.2, 0), up=(0, 1, 0), fov=1e-4)
 GLOW = Material(name="glow", emission=(1.0, 1.0, 1.0))
 FLOOR = h.thing(h.quad((0, 0, -3), (900, 0, 0), (0, 900, 0), name="floor"), GLOW)
@@ -170,7 +175,7 @@ def test_the_higher_priority_is_there_where_bodies_overlap(glass, water, expecte
     """Glass from 0 to 2 and water from 1 to 3, seen from above and from below; of equal ones the smaller body is there."""
     things = [body(0, 2, 0.3, glass, side=3.0), body(1, 3, 0.7, water)]
     camera = DOWN if order > 0 else PerspectiveCamera.look_at((0.1, 0.2, -2), (0.1, 0.2, 0), up=(0, 1, 0), fov=1e-4)
-    assert seen(things[::order], camera, world=1.0) == pytest.approx(np.exp(-expected), rel=NEAR)
+    assert seen(things[::order], camera, world=1.0) == pytest.approx(np.exp(-expected), rel=GROWN)
 
 
 def layered(things, samples=512, world=1.0):
@@ -193,6 +198,40 @@ def layered(things, samples=512, world=1.0):
 def test_layers_pass_what_their_boundaries_add_up_to(things, indices):
     """D9 for any number of layers: (1 - T) / T = sum of R / (1 - R); detects 0.6 %."""
     assert h.mean_is(layered([*things, FLOOR]), incoherent(*indices), floor=1e-5)
+
+
+@pytest.mark.parametrize("glass", [-1, 0, 1])
+def test_bodies_that_touch_pass_what_their_boundaries_add_up_to(glass):
+    """Water that fits its glass, lid and floor: faces that coincide are one boundary, whichever of the two a ray meets."""
+    water = body(1, 2, lobe=Dielectric(1.33), name="water")
+    wall = [body(*z, 0, glass, lobe=Dielectric(2.4), name=f"{z}") for z in ((0, 1), (2, 3))]
+    assert h.mean_is(layered([*wall, water, FLOOR]), incoherent(1, 2.4, 1.33, 2.4, 1), floor=1e-5)
+    absorbing = [body(*z, a, glass * (a < 1), name=f"{z}") for z, a in (((0, 1), 0.3), ((1, 2), 1.0), ((2, 3), 0.3))]
+    for order in (1, -1):
+        assert seen([*absorbing[::order], FLOOR]) == pytest.approx(np.exp(-1.6), rel=GROWN)
+
+
+def test_the_sum_catches_touching_bodies_that_are_not_moved_apart(monkeypatch):
+    monkeypatch.setattr("glanz.engine.world.compile.moved_apart", lambda vertices, indices, owner, layer: vertices)
+    with pytest.raises(AssertionError):
+        test_bodies_that_touch_pass_what_their_boundaries_add_up_to(1)
+
+
+@pytest.mark.parametrize("shared", [True, False])
+def test_bodies_that_share_space_grow_and_stay_closed(shared):
+    """Outwards by a few times what rays start off a face, the stronger more, and corners in one place together."""
+    mesh = h.box((-1, -1, -1), (1, 1, 1))
+    corners = mesh.triangles.ravel()
+    if not shared:
+        mesh = dataclasses.replace(mesh, vertices=mesh.vertices[:, corners], triangles=np.arange(36).reshape(3, 12))
+    start = START_ULPS * EPS32 * (1 + 2)
+    for layer in (1, 3):
+        grown = moved_apart(mesh.vertices.astype(np.float32), mesh.triangles, np.zeros(12, int), np.full(12, layer)).astype(np.float64)
+        out = np.abs(grown).min(axis=0) - 1
+        assert (out > layer * start * 1.6).all()
+        assert (out < layer * start * 4.1).all()
+        assert len(np.unique(grown, axis=1).T) == 8
+    assert moved_apart(mesh.vertices, mesh.triangles, np.zeros(12, int), np.zeros(12, int)) is mesh.vertices
 
 
 def test_the_sum_catches_boundaries_with_the_vacuum(monkeypatch):
