@@ -3,6 +3,8 @@
 import bpy
 from bpy.props import EnumProperty, FloatProperty, PointerProperty
 
+from .properties import renew
+
 
 class GlanzLightSettings(bpy.types.PropertyGroup):
     """How a spot light of Blender shines in Glanz."""
@@ -15,6 +17,7 @@ class GlanzLightSettings(bpy.types.PropertyGroup):
             ("COSINE", "Cosine Power", "A power of the cosine of the angle, without an edge: Spot Size and Blend do not count"),
         ),
         default="CONE",
+        update=renew,
     )
     exponent: FloatProperty(
         name="Exponent",
@@ -26,6 +29,7 @@ class GlanzLightSettings(bpy.types.PropertyGroup):
         min=0.0,
         soft_max=1000.0,
         max=1e6,
+        update=renew,
     )
 
 

@@ -1,12 +1,90 @@
 """What Glanz asks of a material beyond Blender's own settings: `material.glanz`."""
 
 import bpy
-from bpy.props import FloatProperty, IntProperty, PointerProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, PointerProperty
+
+from .properties import renew
+
+
+def _coefficient(name, description, default):
+    """A share of light for each of red, green and blue."""
+    return FloatVectorProperty(
+        name=name,
+        description=f"{description}. No unit, linear, 0 to 1",
+        default=(default,) * 3,
+        min=0.0,
+        max=1.0,
+        size=3,
+        subtype="COLOR",
+        update=renew,
+    )
 
 
 class GlanzMaterialSettings(bpy.types.PropertyGroup):
-    """What is inside of objects that wear a material, in Glanz."""
+    """The lecture's parameters of a material, and what is inside of objects that wear it, in Glanz."""
 
+    use_lecture: BoolProperty(
+        name="Lecture Material",
+        description="Go by the lecture's parameters below, and not by the material's nodes",
+        default=False,
+        update=renew,
+    )
+    k_a: _coefficient(
+        "Ambient k_a", "Share of every light's irradiance that arrives everywhere; only Whitted (Phong Illumination) knows it", 0.0
+    )
+    k_d: _coefficient("Diffuse k_d", "Share of light that is reflected evenly into all directions", 0.5)
+    k_s: _coefficient("Specular k_s", "Share of light in the highlight about the mirror direction; that of metals is coloured", 0.3)
+    exponent: FloatProperty(
+        name="Exponent n",
+        description="Power of the cosine in the highlight, without a unit: 0 is as dull as can be, 1000 a small sharp highlight",
+        default=32.0,
+        min=0.0,
+        soft_max=1000.0,
+        max=1e6,
+        update=renew,
+    )
+    normalisation: EnumProperty(
+        name="Normalisation",
+        description="How the highlight is made a share of light. All three look alike seen straight, and differ towards grazing angles",
+        items=(
+            ("phong", "Modified Phong", "(n + 2) / (2 pi) cos^n, reciprocal; never more than k_s (Lafortune and Willems 1994)"),
+            ("phong_lecture", "Lecture", "The same over the cosine of incidence: not reciprocal, up to k_s (n + 2) / (n + 1)"),
+            ("blinn_phong", "Blinn-Phong", "cos^n of the half vector, reciprocal; seen straight as wide as the others with a quarter of n"),
+        ),
+        default="phong",
+        update=renew,
+    )
+    k_r: _coefficient("Reflection k_r", "Share of light that is reflected as by a mirror", 0.0)
+    k_t: _coefficient("Transmission k_t", "Share of light that passes the surface, refracted; the object should be closed", 0.0)
+    ior: FloatProperty(
+        name="IOR",
+        description="Index of refraction of the inside, without a unit: 1 bends nothing, water has 1.33, glass 1.5, diamond 2.42",
+        default=1.5,
+        min=1e-3,
+        soft_min=1.0,
+        soft_max=3.0,
+        max=1e3,
+        update=renew,
+    )
+    absorption_colour: FloatVectorProperty(
+        name="Colour at Distance",
+        description="What is left of white light after the distance inside; white absorbs nothing. Longer ways are darker (Beer's law)",
+        default=(1.0, 1.0, 1.0),
+        min=0.0,
+        max=1.0,
+        size=3,
+        subtype="COLOR",
+        update=renew,
+    )
+    absorption_distance: FloatProperty(
+        name="Distance",
+        description="Way inside after which white light has the colour above, in metres: absorption is -ln(colour) / distance",
+        default=1.0,
+        min=1e-6,
+        soft_max=10.0,
+        unit="LENGTH",
+        update=renew,
+    )
     priority: IntProperty(
         name="Priority",
         description=(
@@ -16,6 +94,7 @@ class GlanzMaterialSettings(bpy.types.PropertyGroup):
         default=0,
         soft_min=-10,
         soft_max=10,
+        update=renew,
     )
     abbe: FloatProperty(
         name="Abbe Number",
@@ -27,6 +106,7 @@ class GlanzMaterialSettings(bpy.types.PropertyGroup):
         min=0.0,
         soft_max=100.0,
         max=1e6,
+        update=renew,
     )
 
 

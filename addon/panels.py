@@ -238,6 +238,32 @@ class GLANZ_LIGHT_PT_light(GlanzPanel, bpy.types.Panel):
             column.prop(context.object, "visible_camera", text="Visible to Camera")
 
 
+class GLANZ_MATERIAL_PT_lecture(GlanzPanel, bpy.types.Panel):
+    """The lecture's parameters, in place of the material's nodes."""
+
+    bl_label = "Lecture Material"
+    bl_context = "material"
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and context.material is not None
+
+    def draw_header(self, context):
+        self.layout.prop(context.material.glanz, "use_lecture", text="")
+
+    def draw(self, context):
+        settings = context.material.glanz
+        column = self.column()
+        column.active = settings.use_lecture
+        for name in ("k_a", "k_d", "k_s", "exponent", "normalisation", "k_r", "k_t"):
+            column.prop(settings, name)
+        if any(settings.k_t):
+            column.separator()
+            for name in ("ior", "absorption_colour", "absorption_distance"):
+                column.prop(settings, name)
+            column.label(text="Overlap and dispersion: see Medium")
+
+
 class GLANZ_MATERIAL_PT_medium(GlanzPanel, bpy.types.Panel):
     """What is inside of objects that wear the material, beside the volume of its nodes."""
 
@@ -264,6 +290,7 @@ _CLASSES = (
     GLANZ_RENDER_PT_motion_blur,
     GLANZ_OBJECT_PT_motion_blur,
     GLANZ_RENDER_PT_performance,
+    GLANZ_MATERIAL_PT_lecture,
     GLANZ_MATERIAL_PT_medium,
     GLANZ_VIEWLAYER_PT_passes,
     GLANZ_VIEWLAYER_PT_override,

@@ -14,6 +14,11 @@ def stored_number(key):
     return zlib.crc32(key.encode()) & 0x7FFFFFFF
 
 
+def renew(settings, context):
+    """An `update` for settings of data-blocks: Blender evaluates them anew also where a script sets them, which else nobody tells."""
+    settings.id_data.update_tag()
+
+
 @cache
 def enum_items(registry_name):
     """Items for a choice among the plug-ins of an engine registry; kept, for Blender does not own their strings."""

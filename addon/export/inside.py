@@ -7,7 +7,7 @@ import numpy as np
 from ...engine import Dielectric, Medium
 from .nodes import Reader, input_by_identifier
 
-_DENSEST = 1e30
+DENSEST = 1e30
 """Absorption [m^-1] beyond which products no longer fit into single precision."""
 
 
@@ -15,7 +15,7 @@ def medium_of(material, output, owner, findings):
     """The `Medium` inside of a material (evaluated) with this output node, or None where it is nothing but clear."""
     reader = Reader(owner, findings)
     absorption = _behind(reader, input_by_identifier(output, "Volume"))
-    clean = np.clip(np.nan_to_num(absorption, nan=0.0), 0.0, _DENSEST)
+    clean = np.clip(np.nan_to_num(absorption, nan=0.0), 0.0, DENSEST)
     if not np.array_equal(clean, absorption):
         findings.note("a colour or density of the volume is negative, above 1 or not finite and is cut off", owner)
     priority = getattr(getattr(material, "glanz", None), "priority", 0)

@@ -8,6 +8,7 @@ from ...engine import Material, Transparent
 from .closure import Closure, colours_of, diffuse, merged, scaled_lobe, with_colours
 from .findings import Findings
 from .inside import medium_of, with_dispersion
+from .lecture import is_lecture, lecture_medium, lecture_surface
 from .nodes import Reader, has_nodes, output_node
 from .principled import principled_lobes
 from .shaders import surface_of
@@ -24,6 +25,9 @@ def export_material(material, findings):
     if material is None:
         return DEFAULT
     owner = f"material '{material.name}'"
+    if is_lecture(material):
+        checked = _checked(material.name, owner, lecture_surface(material, owner, findings), findings)
+        return replace(checked, ambient=clean_colour(material.glanz.k_a, owner, findings), medium=lecture_medium(material))
     if not has_nodes(material):
         return _checked(material.name, owner, diffuse(tuple(material.diffuse_color)[:3]), findings)
     output = output_node(material.node_tree)
@@ -42,7 +46,7 @@ def export_material(material, findings):
 
 def is_volume_only(material):
     """Whether a material (or None) has an inside but no surface, so that nothing is left without the volume."""
-    if material is None or not has_nodes(material):
+    if material is None or is_lecture(material) or not has_nodes(material):
         return False
     output = output_node(material.node_tree)
     if output is None:

@@ -113,6 +113,31 @@ def test_a_spot_shows_the_cone_or_the_exponent():
     assert not {"spot_size", "spot_blend"} & set(drawn)
 
 
+def test_the_lectures_parameters_can_be_edited():
+    """What the way through a body needs is drawn where light gets in."""
+    ob = blender.add_plane()
+    assert not OWN["GLANZ_MATERIAL_PT_lecture"].poll(_context(ob))
+    ob.data.materials.append(bpy.data.materials.new("Ball"))
+    opaque = ["k_a", "k_d", "k_s", "exponent", "normalisation", "k_r", "k_t"]
+    assert _drawn("GLANZ_MATERIAL_PT_lecture", ob) == opaque
+    ob.data.materials[0].glanz.k_t = (0, 0.5, 0)
+    drawn = _drawn("GLANZ_MATERIAL_PT_lecture", ob) + _drawn("GLANZ_MATERIAL_PT_medium", ob)
+    own = {name for name in ob.data.materials[0].glanz.bl_rna.properties.keys() if name not in ("rna_type", "name")}  # noqa: SIM118
+    assert own - {"use_lecture"} <= set(drawn)
+    header = SimpleNamespace(layout=Layout())
+    OWN["GLANZ_MATERIAL_PT_lecture"].draw_header(header, _context(ob))
+    assert header.layout.drawn == ["use_lecture"]
+
+
+def test_tooltips_say_what_a_number_does_and_its_unit():
+    for owner in (bpy.data.materials.new("M"), bpy.data.lights.new("L", "SPOT")):
+        for name, prop in owner.glanz.bl_rna.properties.items():
+            if name not in ("rna_type", "name"):
+                assert len(prop.description) > 30, name
+                is_number = prop.type == "FLOAT"
+                assert not is_number or any(word in prop.description for word in ("unit", "metres", "white light")), name
+
+
 def test_what_is_inside_of_a_material_can_be_edited():
     ob = blender.add_plane()
     assert not OWN["GLANZ_MATERIAL_PT_medium"].poll(_context(ob))

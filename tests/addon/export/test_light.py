@@ -73,6 +73,15 @@ def test_a_spot_takes_the_lectures_characteristic_where_asked():
     assert light.power()[0] == pytest.approx(100 / 2 / 21)
 
 
+def test_a_characteristic_that_a_script_sets_is_seen_at_once():
+    _, light = _light("SPOT")
+    assert type(_exported()) is not CosineSpotLight
+    light.glanz.characteristic, light.glanz.exponent = "COSINE", 20
+    assert _exported().exponent == 20
+    light.glanz.exponent = 30
+    assert _exported().exponent == 30
+
+
 def test_the_lectures_spot_shows_its_characteristic_in_a_saved_file(tmp_path):
     """E = I_0 cos^n cos / d^2 on a white floor below: pixels at 0 and 45 degrees, to 1 %."""
     blender.add_camera(location=(0, 0, 10), width=33, height=33, type="ORTHO", ortho_scale=6.6)
