@@ -2,7 +2,9 @@
 
 import importlib
 
-_MODULES = ("properties", "light_settings", "material_settings", "render_engine", "panels", "builtin_panels")
+SETTINGS = ("properties", "light_settings", "material_settings")
+"""The modules of what a .blend file stores."""
+_MODULES = (*SETTINGS, "render_engine", "panels", "builtin_panels")
 _registered = []
 
 

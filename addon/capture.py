@@ -5,10 +5,12 @@ exports and does nothing else, is let run for it.
 """
 
 from contextlib import contextmanager
+from importlib import import_module
 
 import bpy
 
 from ..engine import GlanzError, SceneError
+from . import SETTINGS
 from .export import export_scene
 from .files import open_blend, save_png
 from .reports import describe
@@ -115,9 +117,7 @@ def _refusal(scene, error):
 @contextmanager
 def _registered():
     """The settings and the capture engine known to Blender, and forgotten again if they were not before."""
-    from . import properties
-
-    own = [] if hasattr(bpy.types.Scene, "glanz") else [properties]
+    own = [] if hasattr(bpy.types.Scene, "glanz") else [import_module(f"{__package__}.{name}") for name in SETTINGS]
     for module in own:
         module.register()
     bpy.utils.register_class(GlanzCaptureEngine)

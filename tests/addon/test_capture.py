@@ -4,6 +4,7 @@ import bpy
 import numpy as np
 import pytest
 
+import glanz
 from glanz import engine
 from glanz.addon.capture import capture, open_blend, save_png
 from glanz.tests.addon import blender
@@ -23,6 +24,26 @@ def test_scene_settings_and_warnings_are_those_of_the_file(scene):
     assert [o.name for o in value.objects] == ["Tetrahedron"]
     assert (settings.width, settings.height, settings.samples) == (32, 16, 3)
     assert warnings == ("the film is not transparent, the world is always seen: scene 'Scene'",)
+
+
+def test_what_a_file_stores_about_materials_and_lights_counts_where_glanz_is_not_switched_on(scene, tmp_path):
+    """As on the command line: the settings of lamps and materials are known for the time of the export, and forgotten again."""
+    lamp = blender.link("Lamp", bpy.data.lights.new("Lamp", "SPOT"))
+    lamp.data.glanz.characteristic, lamp.data.glanz.exponent = "COSINE", 3.5
+    glass = blender.new_material("Glass", "ShaderNodeBsdfGlass", Roughness=0)
+    glass.glanz.abbe = 42
+    bpy.data.objects["Tetrahedron"].data.materials.append(glass)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "a.blend"))
+    glanz.unregister()
+    try:
+        open_blend(tmp_path / "a.blend")
+        value, _, warnings = capture()
+        assert not hasattr(bpy.types.Material, "glanz")
+    finally:
+        glanz.register()
+    assert warnings == ()
+    assert [light.exponent for light in value.lights] == [3.5]
+    assert [lobe.abbe for lobe in value.objects[0].materials[0].lobes] == [42]
 
 
 def test_overrides_and_the_camera_agree(scene):
