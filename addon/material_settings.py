@@ -55,7 +55,25 @@ class GlanzMaterialSettings(bpy.types.PropertyGroup):
         update=renew,
     )
     k_r: _coefficient("Reflection k_r", "Share of light that is reflected as by a mirror", 0.0)
-    k_t: _coefficient("Transmission k_t", "Share of light that passes the surface, refracted; the object should be closed", 0.0)
+    k_t: _coefficient("Transmission k_t", "Share of light that passes the surface", 0.0)
+    is_sheet: BoolProperty(
+        name="Thin Sheet",
+        description=(
+            "What passes is scattered about its way straight on, as by paper or frosted glass, and has no inside. "
+            "Off: it is refracted into the body, which should be closed"
+        ),
+        default=False,
+        update=renew,
+    )
+    sheet_exponent: FloatProperty(
+        name="Sheet Exponent",
+        description="Power of the cosine about the way straight on, without a unit: 0 scatters like paper, 1000 is nearly clear",
+        default=8.0,
+        min=0.0,
+        soft_max=1000.0,
+        max=1e6,
+        update=renew,
+    )
     ior: FloatProperty(
         name="IOR",
         description="Index of refraction of the inside, without a unit: 1 bends nothing, water has 1.33, glass 1.5, diamond 2.42",

@@ -259,9 +259,11 @@ class GLANZ_MATERIAL_PT_lecture(GlanzPanel, bpy.types.Panel):
             column.prop(settings, name)
         if any(settings.k_t):
             column.separator()
-            for name in ("ior", "absorption_colour", "absorption_distance"):
+            column.prop(settings, "is_sheet")
+            for name in ("sheet_exponent",) if settings.is_sheet else ("ior", "absorption_colour", "absorption_distance"):
                 column.prop(settings, name)
-            column.label(text="Overlap and dispersion: see Medium")
+            if not settings.is_sheet:
+                column.label(text="Overlap and dispersion: see Medium")
 
 
 class GLANZ_MATERIAL_PT_medium(GlanzPanel, bpy.types.Panel):

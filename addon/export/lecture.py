@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ...engine import BlinnPhong, Dielectric, Lambert, Medium, Mirror, Phong, PhongLecture
+from ...engine import BlinnPhong, Dielectric, Lambert, Medium, Mirror, Phong, PhongLecture, PhongTransmission
 from .closure import Closure
 from .inside import DENSEST, with_dispersion
 
@@ -15,11 +15,13 @@ def is_lecture(material):
 
 
 def lecture_surface(material, owner, findings):
-    """The `Closure` of k_d, k_s, n, k_r, k_t and the index of refraction; notes coefficients that ask for too much light."""
+    """The `Closure` of k_d, k_s, n, k_r, k_t and what goes with k_t; notes coefficients that ask for too much light."""
     k = material.glanz
     glossy = _NORMALISATIONS[k.normalisation](tuple(k.k_s), k.exponent)
     lobes = [Lambert(tuple(k.k_d)), glossy]
-    if any(k.k_t):
+    if any(k.k_t) and k.is_sheet:
+        lobes += [Mirror(tuple(k.k_r)), PhongTransmission(tuple(k.k_t), k.sheet_exponent)]
+    elif any(k.k_t):
         # The lecture's constants, in place of Fresnel's equations.
         lobes += with_dispersion((Dielectric(k.ior, tuple(k.k_r), tuple(k.k_t), is_fresnel=False),), material)
     else:
@@ -38,5 +40,5 @@ def lecture_medium(material):
         absorption = -np.log(np.array(k.absorption_colour, np.float64)) / k.absorption_distance
     # Not min(): what is not a number is for the engine to refuse.
     absorption = np.where(absorption > DENSEST, DENSEST, absorption) + 0.0
-    is_clear = not any(k.k_t) or not (absorption.any() or k.priority)
+    is_clear = k.is_sheet or not any(k.k_t) or not (absorption.any() or k.priority)
     return None if is_clear else Medium(absorption=tuple(absorption.tolist()), priority=k.priority)

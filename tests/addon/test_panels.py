@@ -122,6 +122,10 @@ def test_the_lectures_parameters_can_be_edited():
     assert _drawn("GLANZ_MATERIAL_PT_lecture", ob) == opaque
     ob.data.materials[0].glanz.k_t = (0, 0.5, 0)
     drawn = _drawn("GLANZ_MATERIAL_PT_lecture", ob) + _drawn("GLANZ_MATERIAL_PT_medium", ob)
+    assert {"ior", "absorption_colour", "abbe"} <= set(drawn)
+    ob.data.materials[0].glanz.is_sheet = True
+    assert "ior" not in _drawn("GLANZ_MATERIAL_PT_lecture", ob)
+    drawn += _drawn("GLANZ_MATERIAL_PT_lecture", ob)
     own = {name for name in ob.data.materials[0].glanz.bl_rna.properties.keys() if name not in ("rna_type", "name")}  # noqa: SIM118
     assert own - {"use_lecture"} <= set(drawn)
     header = SimpleNamespace(layout=Layout())

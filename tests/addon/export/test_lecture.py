@@ -5,7 +5,7 @@ import math
 import bpy
 import pytest
 
-from glanz.engine import BlinnPhong, Dielectric, Lambert, Mirror, Phong, PhongLecture, SceneError
+from glanz.engine import BlinnPhong, Dielectric, Lambert, Mirror, Phong, PhongLecture, PhongTransmission, SceneError
 from glanz.engine.scene.validate import validate
 from glanz.tests import helpers as h
 from glanz.tests.addon import blender
@@ -72,6 +72,17 @@ def test_transmission_is_glass_with_constants():
     assert not lobe.is_fresnel
 
 
+def test_a_sheet_scatters_what_passes_and_has_no_inside():
+    values = {"k_r": (0.1, 0.1, 0.1), "k_t": (0.8, 0.7, 0.6), "is_sheet": True, "sheet_exponent": 12, "absorption_colour": (0.5, 0.5, 0.5)}
+    material, warnings = exported(lecture(**values))
+    assert warnings == ()
+    mirror, sheet = material.lobes
+    assert (type(mirror), type(sheet)) == (Mirror, PhongTransmission)
+    assert sheet.transmittance == pytest.approx((0.8, 0.7, 0.6))
+    assert sheet.exponent == 12
+    assert material.medium is None
+
+
 def test_the_colour_at_a_distance_is_what_is_left():
     """exp(-sigma 0.5 m) is the colour."""
     values = {"k_t": (1, 1, 1), "absorption_colour": (1, 0.5, 0.25), "absorption_distance": 0.5, "priority": 2}
@@ -119,7 +130,7 @@ def test_senseless_numbers_cannot_be_typed(name, least):
 
 def test_a_saved_picture_shows_the_illumination_model(tmp_path):
     """k_a I_L + k_d I_L (n . l) + k_s I_L (r . v)^n with I_L = I / d^2 on a plane seen from above, at 4 pixels, to 0.2 %."""
-    camera = blender.add_camera(location=(0, 0, 10), width=99, height=99, type="ORTHO", ortho_scale=6.6)
+    blender.add_camera(location=(0, 0, 10), width=99, height=99, type="ORTHO", ortho_scale=6.6)
     blender.add_plane(size=20).data.materials.append(lecture(k_a=(0.1, 0, 0), k_d=(0.3, 0.4, 0), k_s=(0.4, 0.2, 0.5), exponent=3))
     lamp = bpy.data.lights.new("Lamp", "POINT")
     lamp.energy, lamp.shadow_soft_size = 4 * math.pi * 100, 0
@@ -132,7 +143,22 @@ def test_a_saved_picture_shows_the_illumination_model(tmp_path):
         I_L = 100 / 4 * cos**2
         truth = [a * I_L + d * I_L * cos + s * I_L * cos**3 for a, d, s in zip((0.1, 0, 0), (0.3, 0.4, 0), (0.4, 0.2, 0.5))]
         assert image[49, column, :3] == pytest.approx(truth, rel=2e-3)
-    assert camera.data.type == "ORTHO"
+
+
+def test_a_saved_picture_shows_a_lamp_through_a_sheet(tmp_path):
+    """k_t (n + 2) / (2 pi) (-v . l)^n I cos / d^2 of a lamp below a sheet that is seen from above, at 4 pixels, to 0.5 %."""
+    blender.add_camera(location=(0, 0, 10), width=99, height=99, type="ORTHO", ortho_scale=6.6)
+    blender.add_plane(size=20).data.materials.append(lecture(k_t=(0.9, 0.6, 0.3), is_sheet=True, sheet_exponent=3))
+    lamp = bpy.data.lights.new("Lamp", "POINT")
+    lamp.energy, lamp.shadow_soft_size = 4 * math.pi * 100, 0
+    blender.link("Lamp", lamp, (0, 0, -2))
+    settings = bpy.context.scene.glanz
+    settings.max_depth, settings.samples, settings.pixel_filter = 0, 16, "box"
+    image = next(iter(blender.read_exr(blender.render(tmp_path / "a.exr")).values()))
+    for column in (49, 64, 79, 94):
+        cos = 2 / math.hypot(6.6 / 99 * (column - 49), 2)
+        seen = 5 / (2 * math.pi) * cos**3 * 100 / 4 * cos**3
+        assert image[49, column, :3] == pytest.approx([k_t * seen for k_t in (0.9, 0.6, 0.3)], rel=5e-3)
 
 
 def test_settings_survive_saving_and_loading(tmp_path):
