@@ -40,10 +40,10 @@ class Requirements:
             ask(needs.LENS, camera.name)
         if camera.clip_start > 0 or camera.clip_end < math.inf:
             ask(needs.CLIP_RANGE, camera.name)
-        bodies = [o for o in scene.objects if inside_of(o)]
-        for o in sharing_space(bodies):
+        inside = {o: inside_of(o) for o in scene.objects}
+        for o in sharing_space([o for o in scene.objects if inside[o]]):
             ask(needs.NESTED_MEDIA, o.name)
-        for material in dict.fromkeys(material for o in bodies for material in inside_of(o)):
+        for material in dict.fromkeys(material for materials in inside.values() for material in materials):
             if material.medium is not None and any(material.medium.absorption):
                 ask(needs.ABSORPTION, material.name)
             if any(getattr(lobe, "spread", 0) and any(lobe.albedo()) for lobe in material.lobes):

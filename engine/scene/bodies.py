@@ -9,9 +9,11 @@ from ..maths.vectors import cross, dot
 
 def inside_of(o):
     """The materials through whose surface light gets into object `o`, a tuple; the first says what is inside."""
+    if not o.mesh.triangles.size or not any(map(_has_inside, o.materials)):
+        return ()
     indices = o.mesh.material_indices
-    used = np.unique(indices.clip(0, max(len(o.materials) - 1, 0))) if indices.size else (0,)
-    return tuple(o.materials[i] for i in used if i < len(o.materials) and _has_inside(o.materials[i])) if o.mesh.triangles.size else ()
+    used = np.unique(indices.clip(0, len(o.materials) - 1)) if indices.size else (0,)
+    return tuple(o.materials[i] for i in used if _has_inside(o.materials[i]))
 
 
 def _has_inside(material):

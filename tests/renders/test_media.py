@@ -103,6 +103,17 @@ def test_a_slab_that_absorbs_half_passes_and_reflects_what_its_round_trips_add_u
     assert h.mean_is(image, expected, floor=1e-5)
 
 
+@pytest.mark.parametrize(("depth", "trips"), [(2, 1), (4, 2), (12, 6)])
+def test_whitted_adds_the_round_trips_in_a_slab_up_one_by_one(depth, trips):
+    """D10 without chance: T = (1 - R)^2 tau (1 + R^2 tau^2 + ...), each trip two bounces more."""
+    again = (0.04 * 0.5) ** 2
+    expected = 0.96**2 * 0.5 * sum(again**k for k in range(trips))
+    image = seen([slab_glass(), FLOOR], max_depth=depth, integrator="whitted", min_contribution=0.0)
+    assert image == pytest.approx(expected, rel=NEAR)
+    if trips == 6:
+        assert image == pytest.approx(0.460984394, rel=NEAR)
+
+
 def test_the_way_to_lights_that_rays_run_into_is_absorbed():
     """The last metre of three, be it to an emissive mesh, to a light object, or to nowhere."""
     lamp = AreaLight(world_from_light=h.affine(np.diag((1, -1, -1)), (0, 0, -2)), size_x=90, size_y=90, radiance=(1.0,) * 3)
@@ -232,6 +243,13 @@ def test_bodies_that_share_space_grow_and_stay_closed(shared):
         assert (out < layer * start * 4.1).all()
         assert len(np.unique(grown, axis=1).T) == 8
     assert moved_apart(mesh.vertices, mesh.triangles, np.zeros(12, int), np.zeros(12, int)) is mesh.vertices
+
+
+def test_whitted_passes_layers_without_chance():
+    """A bubble in glass, to 1e-4: what is left out counts less than a millionth at each split."""
+    things = [body(0, 3, lobe=Dielectric(1.5)), body(1, 2, lobe=Dielectric(1.0), side=3.0), FLOOR]
+    image = seen(things, max_depth=40, integrator="whitted", min_contribution=1e-7)
+    assert image == pytest.approx(incoherent(1, 1.5, 1, 1.5, 1), rel=1e-4)
 
 
 def test_the_sum_catches_boundaries_with_the_vacuum(monkeypatch):
