@@ -22,6 +22,11 @@ def medium_of(material, output, owner, findings):
     return Medium(absorption=tuple(clean.tolist()), priority=priority) if clean.any() or priority else None
 
 
+def absorbs(medium):
+    """Whether a `Medium` (or None) weakens light."""
+    return medium is not None and any(medium.absorption)
+
+
 def with_dispersion(lobes, material):
     """`lobes` of which glass has the material's Abbe number, if any."""
     abbe = getattr(getattr(material, "glanz", None), "abbe", 0.0)

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 
 from ...engine import Material, Transparent
-from .closure import Closure, colours_of, diffuse, merged, scaled_lobe, with_colours
+from .closure import Closure, colours_of, diffuse, merged, scaled_lobe, transparent, with_colours
 from .findings import Findings
-from .inside import medium_of, with_dispersion
+from .inside import absorbs, medium_of, with_dispersion
 from .lecture import is_lecture, lecture_medium, lecture_surface
 from .nodes import Reader, has_nodes, output_node
 from .principled import principled_lobes
@@ -37,22 +37,27 @@ def export_material(material, findings):
     reader = Reader(owner, findings)
     if reader.is_linked(output, "Displacement"):
         findings.note("displacement is left out", owner)
-    surface = surface_of(output, owner, findings)
+    medium = medium_of(material, output, owner, findings)
+    # Without a surface a volume has a boundary that is not seen.
+    is_bare = absorbs(medium) and not reader.is_linked(output, "Surface")
+    surface = transparent((1.0, 1.0, 1.0)) if is_bare else surface_of(output, owner, findings)
     if not getattr(material, "use_transparent_shadow", True) and any(isinstance(lobe, Transparent) for lobe in surface.lobes):
         findings.note("Transparent Shadows is off, but transparent surfaces let shadow rays pass all the same", owner)
     checked = _checked(material.name, owner, surface, findings)
-    return replace(checked, lobes=with_dispersion(checked.lobes, material), medium=medium_of(material, output, owner, findings))
+    return replace(checked, lobes=with_dispersion(checked.lobes, material), medium=medium)
 
 
 def is_volume_only(material):
-    """Whether a material (or None) has an inside but no surface, so that nothing is left without the volume."""
+    """Whether a material (or None) has but an inside that is not rendered, and no surface, so that nothing is left of it."""
     if material is None or is_lecture(material) or not has_nodes(material):
         return False
     output = output_node(material.node_tree)
     if output is None:
         return False
     reader = Reader(f"material '{material.name}'", Findings())
-    return reader.is_linked(output, "Volume") and not reader.is_linked(output, "Surface")
+    if not reader.is_linked(output, "Volume") or reader.is_linked(output, "Surface"):
+        return False
+    return not absorbs(medium_of(material, output, reader.owner, reader.findings))
 
 
 def _checked(name, owner, closure, findings):

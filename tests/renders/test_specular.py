@@ -15,7 +15,8 @@ def seen(lobes, smooth, samples=64, **settings):
     """A sphere of `lobes` in even radiance 1: (48, 48, 3)."""
     sphere = h.thing(h.icosphere(3, smooth=smooth), Material(name="sphere", lobes=lobes))
     scene = h.scene([sphere], camera=CAMERA, world=1.0)
-    return render_image(scene, h.settings(**{"width": 48, "height": 48, "samples": samples, "max_depth": 200} | settings)).passes["Combined"][..., :3]
+    settings = h.settings(**{"width": 48, "height": 48, "samples": samples, "max_depth": 200} | settings)
+    return render_image(scene, settings).passes["Combined"][..., :3]
 
 
 @pytest.mark.parametrize("smooth", [False, True])

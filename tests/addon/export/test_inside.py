@@ -3,7 +3,7 @@
 import bpy
 import pytest
 
-from glanz.engine import Medium
+from glanz.engine import Medium, Transparent
 from glanz.tests.addon import blender
 
 
@@ -57,6 +57,23 @@ def test_a_volume_that_would_add_light_is_cut_off(values, expected):
     material, warnings = exported(glass("ShaderNodeVolumeAbsorption", **node)[0])
     assert (material.medium and material.medium.absorption) == expected
     assert "cut off: material 'Wine'" in warnings[0]
+
+
+def test_a_volume_without_a_surface_has_a_boundary_that_is_not_seen():
+    material, tree = glass("ShaderNodeVolumeAbsorption", Color=(1, 0, 0.5, 1), Density=2.0)
+    output = tree.get_output_node("CYCLES")
+    tree.links.remove(output.inputs["Surface"].links[0])
+    found, warnings = exported(material)
+    assert warnings == ()
+    assert found.lobes == (Transparent((1.0, 1.0, 1.0)),)
+    assert found.medium.absorption == pytest.approx((0, 2, 1))
+
+
+def test_a_priority_alone_is_no_volume():
+    material, tree = glass()
+    tree.links.remove(tree.links[0])
+    material.glanz.priority = 3
+    assert exported(material)[0].lobes == ()
 
 
 def test_priority_and_dispersion_are_glanzs_own():
