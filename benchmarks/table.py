@@ -13,6 +13,11 @@ ROWS = (
     ("error", "glanz", "RMSE against 2048 samples: Glanz, 16 samples", "", None),
     ("error", "cycles", "the same: Cycles", "", None),
     ("error", "ratio", "Glanz / Cycles, error at equal samples", "", None),
+    *(
+        ("many_lights", f"{key}_{count}", f"{count} lamps, 192x192, 16 samples: {what}", unit, None)
+        for count in (1, 10, 100, 1000, 10_000)
+        for key, what, unit in (("seconds", "processor time", "s"), ("error", "RMSE over mean", ""), ("choice", "one choice", "ns"))
+    ),
     ("instances", "triangles", "instances: triangles in the depsgraph", "M", None),
     ("instances", "export", "export", "s", None),
     ("instances", "compile", "world compile", "s", None),

@@ -47,26 +47,34 @@ class AreaLight:
         share = 0.25 * PI if self.is_ellipse else 1.0
         return share * float(np.linalg.norm(np.cross(*self._axes())))
 
-    def row(self, frame):
-        x, y = self._axes()
-        normal = -np.cross(x, y)
+    def _normal(self):
+        normal = -np.cross(*self._axes())
         if normal @ np.asarray(self.world_from_light, np.float64)[:3, 2] > 0:
             normal = -normal  # a mirrored frame: the light still shines along its -z
         norm = np.linalg.norm(normal)
+        return tuple(normal / norm if norm > 0 else normal)
+
+    def _gain(self):
+        """The factor (tan a) / (tan a - a) of the radiance on the axis, and cot a: finite for a = pi / 2, where the light is Lambertian."""
+        if self.spread >= PI:
+            return 1.0, 0.0
         half = 0.5 * self.spread
-        # The factor (tan a) / (tan a - a) and cot a: finite for a = pi / 2, where the light is Lambertian.
         cot = math.cos(half) / math.sin(half)
-        gain = 1 / (1 - half * cot) if half > 0.05 else 3 / (half * half) - 0.2
+        return 1 / (1 - half * cot) if half > 0.05 else 3 / (half * half) - 0.2, cot
+
+    def row(self, frame):
+        x, y = self._axes()
+        gain, cot = self._gain()
         return {
             "centre": tuple(frame.points(np.asarray(self.world_from_light, np.float64)[:3, 3:4])[:, 0]),
             "axis_x": tuple(x * frame.scale),
             "axis_y": tuple(y * frame.scale),
-            "normal": tuple(normal / norm if norm > 0 else normal),
+            "normal": self._normal(),
             "area": self.area() * frame.scale**2,
             "ellipse": float(self.is_ellipse),
             "radiance": self.radiance,
-            "cot_spread": cot if self.spread < PI else 0.0,
-            "gain": gain if self.spread < PI else 1.0,
+            "cot_spread": cot,
+            "gain": gain,
         }
 
     def power(self, radius=1.0):
@@ -83,10 +91,10 @@ class AreaLight:
         x, y = self._axes()
         return {
             "centre": tuple(frame.points(np.asarray(self.world_from_light, np.float64)[:3, 3:4])[:, 0]),
-            "power": tuple(self.area() * frame.scale**2 * c for c in self.radiance),
+            "power": tuple(self._gain()[0] * self.area() * frame.scale**2 * c for c in self.radiance),
             "nearness": 1.0,
-            "axis": tuple(-np.cross(x, y)),
-            "cos_edge": 0.0,
+            "axis": self._normal(),
+            "cos_edge": max(math.cos(0.5 * self.spread), 0.0),
             "radius2": 0.25 * float(x @ x + y @ y) * frame.scale**2,
         }
 

@@ -85,32 +85,21 @@ class Emitters:
         """Radiant flux of both sides, luminance, in units of render space squared, (M,) float64."""
         return 2 * PI * self.k.area.astype(np.float64) * (np.array(LUMINANCE) @ self.k.radiance.astype(np.float64))
 
-    def _cluster_edges(self):
-        is_new = np.diff(self.objects, prepend=-1) != 0
-        if self.parallelograms < self.count:
-            is_new[self.parallelograms] = True
-        return np.append(np.nonzero(is_new)[0], self.count)
-
-    @property
-    def clusters(self):
-        """How many clusters there are: a cluster is what an object has of one kind of patch."""
-        return len(self._cluster_edges()) - 1
-
     def weights(self):
-        """What each cluster weighs, see `interfaces.Light.weight`, and its `count` of patches."""
-        k, edges = self.k, self._cluster_edges()
-        corners = np.stack((k.v0, k.v0 + k.e1, k.v0 + k.e2)).astype(np.float64)
-        for part in map(slice, edges[:-1], edges[1:]):
-            low, high = corners[:, :, part].min(axis=(0, 2)), corners[:, :, part].max(axis=(0, 2))
-            yield {
-                "centre": tuple(0.5 * (low + high)),
-                "power": tuple((k.radiance[:, part].astype(np.float64) * k.area[part]).sum(axis=1)),
-                "nearness": 1.0,
-                "axis": (0.0, 0.0, 0.0),
-                "cos_edge": -1.0,
-                "radius2": 0.25 * float(((high - low) ** 2).sum()),
-                "count": part.stop - part.start,
-            }
+        """What each patch weighs, see `interfaces.Light.weight`, as columns (M,) float64; power as luminance."""
+        v0, e1, e2 = (edge.astype(np.float64) for edge in (self.k.v0, self.k.e1, self.k.e2))
+        is_triangle = np.arange(self.count) >= self.parallelograms
+        from_middle = np.where(is_triangle, 1 / 3, 1 / 2) * (e1 + e2)
+        corners = np.stack((-from_middle, e1 - from_middle, e2 - from_middle))
+        return Columns(
+            centre=v0 + from_middle,
+            power=self.power() / (2 * PI),
+            nearness=np.ones(self.count),
+            # The fourth corner of a parallelogram is as far from the middle as the first.
+            radius2=(corners * corners).sum(axis=1).max(axis=0),
+            axis=np.zeros((3, self.count)),
+            cos_edge=np.full(self.count, -1.0),
+        )
 
 
 def _first_of_pairs(vertices, triangles, radiance, owner):

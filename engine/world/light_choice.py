@@ -1,22 +1,22 @@
-"""Which light a shadow ray is sent to: three ways, from none to choose from to many."""
+"""Which light a shadow ray is sent to, where there are none to choose from or few; for many see `light_tree_choice`."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import Columns, columns
+from ..arrays import Columns
 from ..constants import ONE_MINUS_EPS32
 from ..maths import discrete
 from ..maths.vectors import dot
-
-MOST_CLUSTERS = 32
-"""Up to so many clusters of lights are weighed against each other at every point; each costs a few nanoseconds."""
 
 _DARK = 2.0**-8
 """What a light weighs where it should not shine at all, compared to where it does."""
 
 _LEAST = 2.0**-10
-"""What the weakest cluster weighs at least, compared to the strongest."""
+"""What the weakest light weighs at least, compared to the strongest."""
+
+_AT_ONCE = 40_000
+"""Weights that are held at a time: they should stay in the cache. No power of two, or rows would fall onto the same part of it."""
 
 
 class OnlyLight:
@@ -66,71 +66,102 @@ class ByPower:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ByPlace:
-    """In proportion to power over squared distance: first one of a few clusters, then by power within it.
+    """In proportion to power over squared distance, each light weighed at each point. A sun weighs the same everywhere.
 
-    A cluster is a light object, or all that emits of one object. A sun weighs the same everywhere.
-
-    by_power  the choice that ignores the place, over the same lights
-    cluster   (M,) the cluster of each light, ascending from 0
-    first     (C,) where each cluster begins in the cdf; total (C,) its share of it
-    table     what the clusters weigh, see `interfaces.Light.weight`: (C, 1), vectors (3, C, 1)
+    table  what the lights weigh, see `weigh`; (M, 1), vectors (3, M, 1)
     """
 
-    by_power: ByPower
-    cluster: np.ndarray
-    first: np.ndarray
-    total: np.ndarray
     table: Columns
 
     @classmethod
-    def of(cls, by_power, clusters):
-        """From the weight of each cluster, power a number, and its `count` of lights; in the order of the lights."""
-        cluster = np.repeat(np.arange(len(clusters)), [c["count"] for c in clusters])
-        edges = np.append(np.nonzero(np.diff(cluster, prepend=-1))[0], cluster.size)
-        cdf = np.append(0.0, by_power.cdf)[edges]
-        largest = max(c["power"] for c in clusters)
-        table = columns([{**c, "power": c["power"] / largest} for c in clusters])
-        del table.count
-        table = Columns(**{name: column[..., None] for name, column in vars(table).items()})
-        return cls(by_power, cluster, cdf[:-1].astype(np.float32), np.diff(cdf).astype(np.float32), table)
+    def of(cls, lights):
+        """From `interfaces.Light.weight` as columns (M,) float64, power a number."""
+        return cls(weight_table(lights, lights.radius2, (-1, 1)))
 
     def choose(self, p, u2):
         """See `ByPower.choose`."""
-        weights = self._weights(p)
-        edges = np.cumsum(weights, axis=0)
-        place = u2[0] * edges[-1]
-        chosen = np.zeros(place.shape, np.intp)
-        for edge in edges[:-1]:
-            chosen += place >= edge
-        lane = np.arange(place.size)
-        weight = weights[chosen, lane]
-        # From the cluster's interval at this point to its interval in the cdf.
-        place -= edges[chosen, lane] - weight
-        place *= self.total.take(chosen) / weight
-        place += self.first.take(chosen)
-        np.clip(place, 0, np.float32(ONE_MINUS_EPS32), out=u2[0])
-        index, _, u2 = self.by_power.choose(p, u2)
-        return index, self._probability(index, weights, edges[-1]), u2
+        index, probability = np.empty(p.shape[1], np.intp), np.empty_like(p[0])
+        for part in parts(p.shape[1], self.table.power.size):
+            weights = self._weights(p[:, part])
+            index[part], probability[part], u2[0, part] = pick(weights, u2[0, part])
+        return index, probability, u2
 
     def probability(self, index, p):
         """See `ByPower.probability`."""
-        weights = self._weights(p)
-        # Not weights.sum(axis=0), which adds in another order where there is one lane, and so would depend on the tiles.
-        return self._probability(index, weights, sum(weights[1:], weights[0]))
-
-    def _probability(self, index, weights, sum_of_weights):
-        cluster = self.cluster.take(index)
-        weight = weights[cluster, np.arange(weights.shape[1])]
-        return weight / sum_of_weights * (self.by_power.share.take(index) / self.total.take(cluster))
+        probability = np.empty_like(p[0])
+        for part in parts(p.shape[1], self.table.power.size):
+            probability[part] = share_of(self._weights(p[:, part]), index[part])
+        return probability
 
     def _weights(self, p):
-        k = self.table
-        away = p[:, None] - k.centre
-        distance2 = dot(away, away)
-        weights = k.power / (k.nearness * distance2 + (k.radius2 + np.finfo(np.float32).tiny))
-        # cos >= cos_edge with both squared, signs kept. Not 0 in the dark: a light may leak over its edge, and all may be dark.
-        along = dot(away, k.axis)
-        is_lit = along * np.abs(along) >= k.cos_edge * np.abs(k.cos_edge) * distance2
-        weights *= np.float32(_DARK) + np.float32(1 - _DARK) * is_lit
+        weights, _ = weigh(self.table, p)
         # The one that outshines the others by far may be hidden from here: they must be found as well.
-        return np.maximum(weights, np.float32(_LEAST) * weights.max(axis=0))
+        return np.maximum(weights, np.float32(_LEAST) * weights.max(axis=0), out=weights)
+
+
+def weight_table(lights, size2, shape):
+    """The columns (M,) of `interfaces.Light.weight`, as `weigh` takes them: float32, of `shape`; size2 (M,) are squared radii."""
+    table = {
+        "centre": lights.centre,
+        "power": lights.power / lights.power.max(),
+        "nearness": lights.nearness,
+        "radius2": lights.radius2,
+    }
+    if (lights.cos_edge > -1).any():
+        table |= {
+            "axis": lights.axis,
+            "cos_edge": lights.cos_edge,
+            "sin_edge": np.sqrt(1 - lights.cos_edge**2),
+            "size": np.sqrt(size2),
+        }
+    return Columns(**{name: np.float32(column).reshape(*column.shape[:-1], *shape) for name, column in table.items()})
+
+
+def weigh(k, p):
+    """The weights (M, N) at points p (3, N), and the squared distances; k is a `weight_table`, (M, 1) or (M, N).
+
+    power / (nearness d^2 + radius2), times _DARK where a light does not shine: where the angle from its axis is more
+    than that of its edge and that under which its own size is seen together.
+    """
+    away = p[:, None] - k.centre
+    distance2 = dot(away, away)
+    weights = k.nearness * distance2
+    weights += k.radius2 + np.finfo(np.float32).tiny
+    np.divide(k.power, weights, out=weights)
+    if hasattr(k, "axis"):
+        # Cosine and sine of both angles' sum, times the distance; the other leg of the triangle that size and distance make.
+        leg = np.sqrt(np.maximum(distance2 - k.size * k.size, 0))
+        is_lit = dot(away, k.axis) >= k.cos_edge * leg - k.sin_edge * k.size
+        is_lit |= k.sin_edge * leg + k.cos_edge * k.size <= 0
+        is_lit |= leg == 0
+        # Not 0 in the dark: a light may leak over its edge, and all may be dark.
+        weights *= np.float32(_DARK) + np.float32(1 - _DARK) * is_lit
+    return weights, distance2
+
+
+def pick(weights, u1):
+    """One of M weights (M, N) for each u1 (N,): indices (N,), their probabilities, and the places of u1 within them."""
+    edges = np.cumsum(weights, axis=0)
+    place = u1 * edges[-1]
+    index = (place >= edges[:-1]).view(np.int8).sum(axis=0, dtype=np.int8).astype(np.intp)
+    weight = at(weights, index)
+    place -= at(edges, index) - weight
+    place /= weight
+    return index, weight / edges[-1], np.clip(place, 0, np.float32(ONE_MINUS_EPS32), out=place)
+
+
+def share_of(weights, index):
+    """The probability (N,) with which `pick` returns `index` (N,)."""
+    # Not weights.sum(axis=0), which adds in another order where there is one lane, and so would depend on the tiles.
+    return at(weights, index) / sum(weights[1:], weights[0])
+
+
+def at(table, index):
+    """table (M, N) at `index` (N,) of each lane."""
+    return table.reshape(-1).take(index * table.shape[1] + np.arange(table.shape[1]))
+
+
+def parts(lanes, weights):
+    """Slices of `lanes` for which so many `weights` each are held at a time."""
+    step = max(1, _AT_ONCE // weights)
+    return [slice(start, start + step) for start in range(0, lanes, step)]

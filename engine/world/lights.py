@@ -9,8 +9,11 @@ from ..constants import LUMINANCE
 from ..lights.parallelogram import ParallelogramLight
 from ..lights.triangle import TriangleLight
 from .environment import Environment
-from .light_choice import MOST_CLUSTERS, ByPlace, ByPower, OnlyLight
+from .light_choice import ByPlace, OnlyLight
+from .light_tree_choice import ByTree
 
+MOST_WEIGHED = 32
+"""Up to so many lights are all weighed against each other at every point; of more, groups are."""
 MAX_HITTABLE = 16
 """With more light objects than this, scattered rays do not look for them: each would be tested one by one."""
 
@@ -160,15 +163,18 @@ class Lights:
 
 
 def _choice(lamps, emitters, frame, radius):
-    powers = [frame.scale**2 * np.dot(LUMINANCE, lamp.power(radius)) for lamp in lamps]
-    powers = np.concatenate((powers, emitters.power()))
-    if powers.size == 1:
+    """How one of all lights is chosen; `radius` [m] is the scene's."""
+    if len(lamps) + emitters.count == 1:
         return OnlyLight()
-    by_power = ByPower.of(powers)
-    if not 1 < len(lamps) + emitters.clusters <= MOST_CLUSTERS:
-        return by_power
-    weights = [*(lamp.weight(frame) | {"count": 1} for lamp in lamps), *emitters.weights()]
-    return ByPlace.of(by_power, [w | {"power": float(np.dot(LUMINANCE, w["power"]))} for w in weights])
+    rows = [lamp.weight(frame) for lamp in lamps]
+    weights = emitters.weights()
+    if rows:
+        of_lamps = vars(columns([row | {"power": np.dot(LUMINANCE, row["power"])} for row in rows], np.float64))
+        weights = Columns(**{name: np.concatenate((of_lamps[name], column), axis=-1) for name, column in vars(weights).items()})
+    if weights.power.size <= MOST_WEIGHED:
+        return ByPlace.of(weights)
+    powers = [frame.scale**2 * np.dot(LUMINANCE, lamp.power(radius)) for lamp in lamps]
+    return ByTree.of(np.concatenate((powers, emitters.power())), weights)
 
 
 def _hittable(lamps, groups):

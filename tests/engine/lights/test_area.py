@@ -181,3 +181,19 @@ def test_a_bad_area_light_is_refused_by_name():
     for bad in ({"size_x": -1.0}, {"size_y": -1.0}, {"spread": 0.0}, {"spread": 3.2}):
         with pytest.raises(SceneError, match="light 'Panel'"):
             AreaLight(name="Panel", **bad).check()
+
+
+@pytest.mark.parametrize("mirror", [1, -1])
+@pytest.mark.parametrize("spread", [math.pi, 1.0])
+def test_a_light_is_weighed_where_it_shines(mirror, spread):
+    """The axis that lights are chosen by is a unit vector along which it shines, with its greatest intensity, mirrored or not."""
+    matrix = h.affine(h.frame_towards((0.3, 0.1, 1.0)) @ np.diag((2.0 * mirror, 3.0, 0.5)))
+    light = AreaLight(world_from_light=matrix, spread=spread)
+    weight = light.weight(h.UNIT_FRAME)
+    axis = np.array(weight["axis"])
+    assert np.linalg.norm(axis) == pytest.approx(1)
+    k = h.table(light.row(h.UNIT_FRAME))
+    _, _, E, _ = light.sample(k, 1e3 * axis[:, None], np.array([[0.5], [0.5]]))
+    assert 1e6 * E[0, 0] == pytest.approx(weight["power"][0], rel=1e-4)
+    assert light.sample(k, -1e3 * axis[:, None], np.array([[0.5], [0.5]]))[2].max() == 0
+    assert weight["cos_edge"] == pytest.approx(math.cos(spread / 2), abs=1e-12)
