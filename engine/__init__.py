@@ -4,7 +4,7 @@ Build a `Scene` from arrays, ask `Requirements.of` what it needs, iterate `rende
 `render_image` for the whole picture, and write it with `write_exr`.
 """
 
-from . import bsdfs, cameras, filters, integrators, lights, passes, samplers  # noqa: F401 - fills the registries
+from . import bsdfs, cameras, filters, integrators, lights, passes, samplers, textures  # noqa: F401 - fills the registries
 from .bsdfs.blinn_phong import BlinnPhong
 from .bsdfs.dielectric import Dielectric
 from .bsdfs.lambert import Lambert
@@ -26,10 +26,15 @@ from .lights.cosine_spot import CosineSpotLight
 from .lights.point import PointLight
 from .lights.spot import SpotLight
 from .lights.sun import SunLight
-from .registry import FILTERS, INTEGRATORS, PASSES, SAMPLERS
+from .registry import FILTERS, INTEGRATORS, PASSES, SAMPLERS, TEXTURES
 from .rendering import Image, Progress, Tile, metadata, render, render_image
 from .requirements import Requirements
-from .scene import EnvironmentMap, Lens, Material, Medium, Mesh, Object, Scene, Settings, World
+from .scene import Bitmap, Coordinates, EnvironmentMap, Lens, Material, Medium, Mesh, Object, Scene, Settings, World
+from .textures.checker import CheckerTexture
+from .textures.gradient import GradientTexture
+from .textures.image import ImageTexture
+from .textures.linear import LinearTexture
+from .textures.noise import NoiseTexture
 
 __version__ = VERSION
 
@@ -38,21 +43,29 @@ __all__ = [
     "INTEGRATORS",
     "PASSES",
     "SAMPLERS",
+    "TEXTURES",
     "AreaLight",
+    "Bitmap",
     "BlinnPhong",
+    "CheckerTexture",
+    "Coordinates",
     "CosineSpotLight",
     "Dielectric",
     "EnvironmentMap",
     "FileError",
     "GlanzError",
+    "GradientTexture",
     "Image",
+    "ImageTexture",
     "Lambert",
     "LambertTransmission",
     "Lens",
+    "LinearTexture",
     "Material",
     "Medium",
     "Mesh",
     "Mirror",
+    "NoiseTexture",
     "Object",
     "OrthographicCamera",
     "PanoramaCamera",

@@ -94,6 +94,36 @@ def lets_shadow_rays_pass(bsdf, tints_glass):
 
 
 @runtime_checkable
+class Texture(Protocol):
+    """A colour that varies over surfaces; it may stand for any parameter of a lobe, and for the emission of a material.
+
+    Where it does, what is below 0 counts as 0. For a parameter that is a number it is taken by its luminance.
+    Fields that hold `Coordinates` say where it is looked up, fields that hold textures what it is made of.
+    has_detail  it is averaged over footprints, so that rays have to carry them
+    """
+
+    key: str
+    label: str
+    has_detail: bool
+
+    def check(self, owner):
+        """Raises SceneError, naming the material `owner`, for parameters out of range."""
+
+    def bounds(self):
+        """The least and the largest value of each channel: two (r, g, b)."""
+
+    def average(self):
+        """The value to expect where nothing is known, (r, g, b): lobes and lights are chosen by it."""
+
+    def eval(self, at):
+        """The linear colour at points, (3, N), or (3, 1) where it is the same for all.
+
+        `at.look_up(coordinates)` gives the points (3, N), and None or the half-axes of footprints, two (3, N), to average
+        over; `at.value(texture)` gives the value of another texture.
+        """
+
+
+@runtime_checkable
 class Light(Protocol):
     """A light object that is no mesh; it gives light and casts no shadow.
 

@@ -20,6 +20,8 @@ OBJECT_MOTION = "object motion"
 TRANSPARENCY = "transparency"
 TINTED_SHADOWS = "tinted shadows"
 DISPERSION = "dispersion"
+TEXTURES = "textures"
+FOOTPRINTS = "footprints"
 
 MEANING = {
     GEOMETRY: "triangles to intersect",
@@ -39,6 +41,8 @@ MEANING = {
     TRANSPARENCY: "surfaces that rays may pass straight on",
     TINTED_SHADOWS: "surfaces that weaken light on its straight way to others instead of blocking it",
     DISPERSION: "indices of refraction that depend on the wavelength",
+    TEXTURES: "parameters of materials that vary over a surface",
+    FOOTPRINTS: "textures with detail, averaged over what a ray stands for",
 }
 
 

@@ -12,8 +12,18 @@ from .wavefront import dispersion, media
 from .wavefront.adaptive import AdaptiveTile
 from .wavefront.camera_rays import bladed_aperture, round_aperture, through_the_lens, through_the_pinhole
 from .wavefront.clip import clip_row, start_in_range, to_the_end_of_range
+from .wavefront.cones import (
+    CARRIED,
+    aim_cones,
+    footprints_at_time,
+    footprints_of_cones,
+    landing_with_cones,
+    leave_with_cones,
+    no_footprints,
+    start_cones_in_range,
+)
 from .wavefront.direct import shadow_rays_in_front, shadow_rays_on_either_side
-from .wavefront.emission import add_emission
+from .wavefront.emission import add_emission, even_shine, textured_shine
 from .wavefront.escape import add_background, add_environment, add_light_hits, add_light_hits_beyond
 from .wavefront.motion import (
     TIME,
@@ -28,6 +38,7 @@ from .wavefront.motion import (
 )
 from .wavefront.numbers import Numbers, one_of_the_lobes, only_lobe
 from .wavefront.passing import travel_through, unblocked_through
+from .wavefront.texturing import fill_in_textures
 from .wavefront.tiles import EvenTile
 from .wavefront.visibility import all_of_it, all_the_way, closest, interact_at_rest, occluded, seen_at_rest, travel, unblocked
 from .world.compile import CompiledWorld, compile_world
@@ -55,6 +66,8 @@ class Plan:
     on_rays            stages (plan, rays, hits, film) for every batch: light met along the way
     on_rays_beyond     the same beyond a surface that rays have passed, see `wavefront.passing`
     on_passing         stages (plan, rays, surface) that renew what rays carry when they pass a surface straight on
+    shine              the emission (plan, rays, hits, lanes, L) of what rays met, see `wavefront.emission`
+    footprints         what rays stand for on triangles (plan, carried, prim, wo, t), see `wavefront.cones`
     interact           the surface (plan, rays, hits) that a batch met
     adjust_surface     stages (plan, rays, surface) -> surface: what changes its normals
     adjust_reflection  stages (plan, rays, surface, reflection) -> reflection: what changes its lobes
@@ -88,6 +101,8 @@ class Plan:
     on_rays: tuple
     on_rays_beyond: tuple
     on_passing: tuple
+    shine: object
+    footprints: object
     interact: object
     adjust_surface: tuple
     adjust_reflection: tuple
@@ -136,6 +151,9 @@ class Plan:
         is_clipped = needs.CLIP_RANGE in requirements
         follows = needs.CAMERA_MOTION in requirements
         nearest, blocked = (closest_at_time, occluded_at_time) if world.movers else (closest, occluded)
+        has_cones = needs.FOOTPRINTS in requirements
+        aim = through_the_lens if needs.LENS in requirements else through_the_pinhole
+        interact = interact_at_time if world.movers else interact_at_rest
         camera = scene.camera
         scale = world.frame.scale
         row = camera.row(settings.width, settings.height, scale) | (clip_row(camera, scale) if is_clipped else {})
@@ -152,12 +170,14 @@ class Plan:
                 *(((TIME, start_time),) if follows or world.movers else ()),
                 *((("inside", media.in_no_body),) if has_media else ()),
                 *((("wavelength", dispersion.white),) if has_wavelength else ()),
+                *(CARRIED if has_cones else ()),
             ),
-            aim=through_the_lens if needs.LENS in requirements else through_the_pinhole,
+            aim=aim_cones(aim) if has_cones else aim,
             aperture=bladed_aperture if camera.lens.blades else round_aperture,
             # What comes before the camera moves is said of a camera at rest.
             on_camera_rays=(
                 *((start_in_range,) if is_clipped else ()),
+                *((start_cones_in_range,) if is_clipped and has_cones else ()),
                 *((follow_camera,) if follows else ()),
                 *((media.start_inside(nearest),) if has_media else ()),
             ),
@@ -172,11 +192,13 @@ class Plan:
             on_rays=on_rays,
             on_rays_beyond=tuple(_BEYOND.get(stage, stage) for stage in on_rays),
             on_passing=(media.pass_boundary,) if has_media else (),
-            interact=interact_at_time if world.movers else interact_at_rest,
+            shine=textured_shine if world.materials.glowing else even_shine,
+            footprints=(footprints_at_time if world.movers else footprints_of_cones) if has_cones else no_footprints,
+            interact=landing_with_cones(interact) if has_cones else interact,
             adjust_surface=(),
-            adjust_reflection=adjust_reflection,
+            adjust_reflection=(*((fill_in_textures,) if world.materials.textured else ()), *adjust_reflection),
             on_surface=integrator.on_surface if can_sample else (),
-            on_leaving=(media.change_media,) if has_media else (),
+            on_leaving=(*((media.change_media,) if has_media else ()), *((leave_with_cones,) if has_cones else ())),
             first_hits=tuple(p for p in chosen if p.at_first_hit),
             passes=chosen,
             tile=AdaptiveTile if needs.ADAPTIVE in requirements else EvenTile,

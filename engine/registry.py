@@ -33,6 +33,7 @@ class Registry(dict):
 BSDFS = Registry("BSDF")
 LIGHTS = Registry("light")
 CAMERAS = Registry("camera")
+TEXTURES = Registry("texture")
 SAMPLERS = Registry("sampler")
 FILTERS = Registry("pixel filter")
 INTEGRATORS = Registry("integrator")

@@ -7,6 +7,7 @@ from . import needs
 from .interfaces import is_straight, lets_shadow_rays_pass
 from .registry import BSDFS, CAMERAS, FILTERS, INTEGRATORS, LIGHTS, PASSES, SAMPLERS
 from .scene.bodies import inside_of, sharing_space
+from .scene.textured import brightest, material_textures, with_inner
 
 
 @dataclass(frozen=True)
@@ -60,15 +61,19 @@ class Requirements:
                 ask(needs.SMOOTH_NORMALS, o.name)
             for material in o.materials:
                 for lobe in material.lobes:
-                    if not any(lobe.albedo()):
+                    if not any(brightest(lobe).albedo()):
                         continue
                     ask(needs.of_plugin("bsdf", type(lobe)), material.name)
                     if is_straight(lobe) and not integrator.tints_glass:
                         ask(needs.TRANSPARENCY, material.name)
                     if integrator.samples_lights and lets_shadow_rays_pass(lobe, integrator.tints_glass):
                         ask(needs.TINTED_SHADOWS, material.name)
-                if any(material.emission):
+                if any(brightest(material).emission):
                     ask(needs.EMISSIVE_MESHES, o.name)
+                for texture in material_textures(material):
+                    ask(needs.TEXTURES, material.name)
+                    if any(part.has_detail for part in with_inner(texture)):
+                        ask(needs.FOOTPRINTS, material.name)
         shining = [light for light in scene.lights if any(light.power())]
         for light in shining:
             ask(needs.of_plugin("light", type(light)), light.name)

@@ -1,10 +1,11 @@
 """What shader nodes mean to the engine: weighted lobes and emission, as values that can be added and scaled."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ...engine import Dielectric, Lambert, LambertTransmission, Mirror, Phong, Transparent
+from .colours import added, is_texture, most, times
 
 SHARPEST_EXPONENT = 1e6
 """The engine's sharpest Phong lobe, 0.1 degrees wide; what would be sharper (roughness below 0.0376) is a mirror."""
@@ -12,19 +13,20 @@ SHARPEST_EXPONENT = 1e6
 
 @dataclass(frozen=True, eq=False)
 class Closure:
-    """The sum of `lobes` (BSDF values) plus `emission` (3,) [W m^-2 sr^-1].
+    """The sum of `lobes` (BSDF values) plus `emission` [W m^-2 sr^-1].
 
-    `environments` are `EnvironmentMap` values, which add to the emission of a world.
+    Colours are constants or textures, see `colours`. `environments` are `EnvironmentMap` values, which add to the emission of
+    a world.
     """
 
     lobes: tuple = ()
-    emission: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    emission: object = (0.0, 0.0, 0.0)
     environments: tuple = ()
 
     def __add__(self, other):
         return Closure(
             self.lobes + other.lobes,
-            self.emission + other.emission,
+            added(self.emission, other.emission),
             self.environments + other.environments,
         )
 
@@ -33,18 +35,19 @@ class Closure:
         return replace(
             self,
             lobes=tuple(scaled_lobe(lobe, factor) for lobe in self.lobes),
-            emission=self.emission * factor,
+            emission=times(self.emission, factor),
             environments=tuple(replace(e, strength=tuple(np.multiply(e.strength, factor))) for e in self.environments),
         )
 
     def albedo(self):
-        """Share of light that goes on by all lobes together, (3,)."""
-        return sum((np.array(lobe.albedo(), np.float64) for lobe in self.lobes), np.zeros(3))
+        """Share of light that goes on by all lobes together, (3,), where textures are brightest."""
+        brightest = (with_colours(lobe, map(most, colours_of(lobe))) for lobe in self.lobes)
+        return sum((np.array(lobe.albedo(), np.float64) for lobe in brightest), np.zeros(3))
 
 
 def scaled_lobe(lobe, factor):
     """`lobe` with its colours times `factor`."""
-    return with_colours(lobe, (np.multiply(colour, factor) for colour in colours_of(lobe)))
+    return with_colours(lobe, (times(colour, factor) for colour in colours_of(lobe)))
 
 
 def colours_of(lobe):
@@ -55,17 +58,18 @@ def colours_of(lobe):
 def with_colours(lobe, colours):
     """`lobe` with other `colours`, in the same order."""
     names = [name for name in ("reflectance", "transmittance") if hasattr(lobe, name)]
-    return replace(lobe, **{name: tuple(float(c) for c in colour) for name, colour in zip(names, colours, strict=True)})
+    return replace(lobe, **dict(zip(names, colours, strict=True)))
 
 
 def merged(lobes):
     """The fewest lobes with the same sum: equal shapes added up, black ones left out."""
     sums = {}
     for lobe in lobes:
-        colours = np.array(colours_of(lobe), np.float64)
-        shape = with_colours(lobe, np.zeros_like(colours))
-        sums[shape] = sums.get(shape, 0) + colours
-    return tuple(with_colours(shape, total) for shape, total in sums.items() if total.any())
+        colours = colours_of(lobe)
+        black = [(0.0, 0.0, 0.0)] * len(colours)
+        shape = with_colours(lobe, black)
+        sums[shape] = [added(a, b) for a, b in zip(sums.get(shape, black), colours)]
+    return tuple(with_colours(shape, total) for shape, total in sums.items() if any(is_texture(c) or any(c) for c in total))
 
 
 def phong_exponent(roughness):
@@ -77,12 +81,12 @@ def phong_exponent(roughness):
 def glossy_lobe(colour, roughness):
     """The lobe of Blender's `roughness`: Phong, or a mirror where that would be too sharp."""
     exponent = phong_exponent(roughness)
-    return Phong(tuple(colour), exponent) if exponent <= SHARPEST_EXPONENT else Mirror(tuple(colour))
+    return Phong(colour, exponent) if exponent <= SHARPEST_EXPONENT else Mirror(colour)
 
 
 def diffuse(colour):
-    """Ideal diffuse reflection of `colour` (r, g, b)."""
-    return Closure((Lambert(tuple(colour)),))
+    """Ideal diffuse reflection of `colour`."""
+    return Closure((Lambert(colour),))
 
 
 def translucent(colour):
@@ -91,13 +95,13 @@ def translucent(colour):
 
 
 def glossy(colour, roughness):
-    """A glossy lobe of `colour` (r, g, b)."""
+    """A glossy lobe of `colour`."""
     return Closure((glossy_lobe(colour, roughness),))
 
 
 def glass(colour, ior):
-    """A smooth boundary that tints what it reflects and what passes it by `colour` (r, g, b)."""
-    return Closure((Dielectric(ior, tuple(colour), tuple(colour)),))
+    """A smooth boundary that tints what it reflects and what passes it by `colour`."""
+    return Closure((Dielectric(ior, colour, colour),))
 
 
 def transparent(colour):
@@ -107,7 +111,7 @@ def transparent(colour):
 
 def emission(colour, strength):
     """Radiance colour * strength [W m^-2 sr^-1]."""
-    return Closure(emission=np.array(colour, np.float64) * strength)
+    return Closure(emission=times(colour, strength))
 
 
 def mix(factor, first, second):

@@ -1,9 +1,44 @@
-"""Blender's images as arrays of scene-linear numbers."""
+"""Blender's images as arrays of numbers."""
 
 import numpy as np
 
 MISSING = (1.0, 0.0, 1.0, 1.0)
 """Magenta: what Blender shows for an image that it cannot find."""
+
+
+def stored_pixels(image, findings, owner):
+    """(H, W, 1 to 4) float32 as Blender hands an image out, row 0 is the bottom: bytes / 255, or scene-linear numbers.
+
+    None, with a note for `owner`, for an image that is missing or None.
+    """
+    image = image and image.original
+    # The first look at the pixels loads the file; only then its size is known.
+    count = len(image.pixels) if image else 0
+    if not count:
+        findings.note(f"the image {repr(image.name) + ' ' if image else ''}is missing and is rendered magenta", owner)
+        return None
+    if image.source in ("SEQUENCE", "MOVIE", "TILED"):
+        findings.note(f"of the image '{image.name}' only what Blender shows of it is rendered: it is a {image.source.lower()}", owner)
+    width, height = image.size
+    pixels = np.empty(count, np.float32)
+    image.pixels.foreach_get(pixels)
+    return pixels.reshape(height, width, -1)
+
+
+def is_srgb(image, findings, owner):
+    """Whether the bytes of an image are encoded by the sRGB curve; else they are linear."""
+    space = image.colorspace_settings
+    # Known by name: Blender's own files only differ in these, and is_data marks what is no colour.
+    if space.is_data or space.name.startswith("Linear"):
+        return False
+    if space.name != "sRGB":
+        findings.note(f"the colour space {space.name} of the image '{image.name}' is taken for sRGB", owner)
+    return True
+
+
+def weighs_by_alpha(image, channels):
+    """Whether the bytes of an image with so many `channels` have an alpha that counts, by which they are yet to be multiplied."""
+    return channels == 4 and not image.is_float and image.alpha_mode not in ("NONE", "CHANNEL_PACKED")
 
 
 def linear_pixels(image, findings, owner):
@@ -12,41 +47,22 @@ def linear_pixels(image, findings, owner):
     Blender hands out floating-point images in just that form; bytes are encoded as their colour space says, with straight
     alpha. An image that is missing, or None, is one pixel of magenta and noted for `owner`.
     """
-    image = image and image.original
-    # The first look at the pixels loads the file; only then its size is known.
-    count = len(image.pixels) if image else 0
-    if not count:
-        findings.note(f"the image {repr(image.name) + ' ' if image else ''}is missing and is rendered magenta", owner)
+    pixels = stored_pixels(image, findings, owner)
+    if pixels is None:
         return np.array(MISSING, np.float32)[:, None, None]
-    if image.source in ("SEQUENCE", "MOVIE", "TILED"):
-        findings.note(f"of the image '{image.name}' only what Blender shows of it is rendered: it is a {image.source.lower()}", owner)
-    width, height = image.size
-    pixels = np.empty(count, np.float32)
-    image.pixels.foreach_get(pixels)
-    pixels = pixels.reshape(height, width, -1)[::-1]
-    channels = pixels.shape[2]
-    has_alpha = channels == 4 and image.alpha_mode != "NONE"
+    pixels = pixels[::-1]
+    height, width, channels = pixels.shape
     result = np.ones((4, height, width), np.float32)
     # One channel is grey.
     result[:3] = np.moveaxis(pixels[..., :3] if channels >= 3 else pixels[..., :1], 2, 0)
-    if has_alpha:
+    if channels == 4 and image.alpha_mode != "NONE":
         result[3] = pixels[..., 3]
     if not image.is_float:
-        result[:3] = _decoded(result[:3], image, findings, owner)
-        if has_alpha and image.alpha_mode != "CHANNEL_PACKED":
+        if is_srgb(image, findings, owner):
+            result[:3] = _LINEAR_OF_BYTE.take((result[:3] * 255 + 0.5).astype(np.uint8))
+        if weighs_by_alpha(image, channels):
             result[:3] *= result[3]
     return result
-
-
-def _decoded(values, image, findings, owner):
-    """Encoded bytes / 255 as scene-linear numbers."""
-    space = image.colorspace_settings
-    # Known by name: Blender's own files only differ in these, and is_data marks what is no colour.
-    if space.is_data or space.name.startswith("Linear"):
-        return values
-    if space.name != "sRGB":
-        findings.note(f"the colour space {space.name} of the image '{image.name}' is taken for sRGB", owner)
-    return _LINEAR_OF_BYTE.take((values * 255 + 0.5).astype(np.uint8))
 
 
 def _srgb_to_linear(c):

@@ -6,6 +6,7 @@ import numpy as np
 
 from ...engine import Material, Transparent
 from .closure import Closure, colours_of, diffuse, merged, scaled_lobe, transparent, with_colours
+from .colours import is_texture
 from .findings import Findings
 from .inside import absorbs, medium_of, with_dispersion
 from .lecture import is_lecture, lecture_medium, lecture_surface
@@ -20,8 +21,8 @@ DEFAULT = Material(name="Default", lobes=principled_lobes((0.8, 0.8, 0.8), 0.0, 
 """What faces without a material wear: Blender's default Principled BSDF."""
 
 
-def export_material(material, findings):
-    """The engine's `Material` for a material (evaluated); None is `DEFAULT`."""
+def export_material(material, findings, bitmaps=None):
+    """The engine's `Material` for a material (evaluated); None is `DEFAULT`. Without `bitmaps` textures are not read."""
     if material is None:
         return DEFAULT
     owner = f"material '{material.name}'"
@@ -40,7 +41,7 @@ def export_material(material, findings):
     medium = medium_of(material, output, owner, findings)
     # Without a surface a volume has a boundary that is not seen.
     is_bare = absorbs(medium) and not reader.is_linked(output, "Surface")
-    surface = transparent((1.0, 1.0, 1.0)) if is_bare else surface_of(output, owner, findings)
+    surface = transparent((1.0, 1.0, 1.0)) if is_bare else surface_of(output, owner, findings, bitmaps)
     if not getattr(material, "use_transparent_shadow", True) and any(isinstance(lobe, Transparent) for lobe in surface.lobes):
         findings.note("Transparent Shadows is off, but transparent surfaces let shadow rays pass all the same", owner)
     checked = _checked(material.name, owner, surface, findings)
@@ -76,7 +77,9 @@ def _clean_lobe(lobe, owner, findings):
 
 
 def clean_colour(colour, owner, findings):
-    """`colour` as three finite numbers from 0 to BRIGHTEST; notes what had to be changed."""
+    """`colour` as three finite numbers from 0 to BRIGHTEST, textures as they are; notes what had to be changed."""
+    if is_texture(colour):
+        return colour
     values = np.array(colour, np.float64)
     clean = np.clip(np.nan_to_num(values, nan=0.0, posinf=BRIGHTEST, neginf=0.0), 0.0, BRIGHTEST)
     if not np.array_equal(values, clean):

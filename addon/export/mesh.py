@@ -5,20 +5,29 @@ import numpy as np
 from ...engine import Mesh
 
 
-def export_mesh(mesh, name):
-    """The engine's `Mesh` for an evaluated `bpy.types.Mesh`, in object space; its arrays are copies."""
+def export_mesh(mesh, name, attributes=()):
+    """The engine's `Mesh` for an evaluated `bpy.types.Mesh`, in object space; its arrays are copies.
+
+    `attributes` are what textures are looked up at, as `Coordinates.attribute` has them; others are left out.
+    """
     triangles = mesh.loop_triangles
     if not len(triangles):
         mesh.calc_loop_triangles()
         triangles = mesh.loop_triangles
     flat = is_flat(mesh)
+    layers = uv_layers(mesh, [layer for source, layer in attributes if source == "uv"])
+    loops = np.zeros((3, 0)) if flat and not layers else _columns(triangles, "loops", np.int32)
     return Mesh(
         name=name,
         vertices=vertices(mesh),
         triangles=_columns(triangles, "vertices", np.int32),
         normals=np.zeros((3, 0)) if flat else corner_normals(mesh),
-        normal_indices=np.zeros((3, 0)) if flat else _columns(triangles, "loops", np.int32),
+        normal_indices=np.zeros((3, 0)) if flat else loops,
         material_indices=material_indices(triangles),
+        uv_layers=[layer.name for layer in layers],
+        uvs=_uvs(layers, len(mesh.loops)),
+        uv_indices=loops if layers else np.zeros((3, 0)),
+        generated=generated(mesh) if ("generated", "") in attributes else np.zeros((3, 0)),
     )
 
 
@@ -37,6 +46,30 @@ def corners(mesh):
     result = np.empty(len(mesh.loops), np.int32)
     mesh.loops.foreach_get("vertex_index", result)
     return result
+
+
+def uv_layers(mesh, names):
+    """The layers of texture coordinates called `names`; no name is the layer for rendering, which comes first then."""
+    if not names:
+        return []
+    layers = [layer for layer in mesh.uv_layers if layer.name in names or ("" in names and layer.active_render)]
+    return sorted(layers, key=lambda layer: not layer.active_render)
+
+
+def _uvs(layers, count):
+    result = np.empty((len(layers), 2, count), np.float32)
+    flat = np.empty(2 * count, np.float32)
+    for values, layer in zip(result, layers):
+        layer.uv.foreach_get("vector", flat)
+        values[...] = flat.reshape(-1, 2).T
+    return result
+
+
+def generated(mesh):
+    """Generated coordinates (3, V): where each vertex was in the texture space of the mesh before it was deformed."""
+    location, size = (np.array(v, np.float64)[:, None] for v in (mesh.texspace_location, mesh.texspace_size))
+    undeformed = _columns(mesh.vertices, "undeformed_co", np.float32)
+    return np.divide(undeformed - location, 2 * size, out=np.zeros(undeformed.shape), where=size != 0) + 0.5
 
 
 def is_flat(mesh):

@@ -28,22 +28,27 @@ class Reader:
     """Reads the sockets of one node tree and of the groups in it, and notes what it cannot read.
 
     owner   who is named in notes, such as "material 'Wood'"
+    bitmaps the images of textures, or None where textures are not read
     groups  the group nodes entered, outermost first
     trail   the nodes passed on the way from the output, each with the groups it is in
     """
 
-    def __init__(self, owner, findings, groups=(), trail=()):
+    def __init__(self, owner, findings, bitmaps=None, groups=(), trail=()):
         self.owner = owner
         self.findings = findings
+        self.bitmaps = bitmaps
         self.groups = groups
         self.trail = trail
+
+    def _elsewhere(self, groups, trail):
+        return Reader(self.owner, self.findings, self.bitmaps, groups, trail)
 
     def beyond(self, node):
         """A reader for what feeds `node`, or None, with a note, where that leads back to `node` itself."""
         if (node, self.groups) in self.trail:
             self.note("its nodes form a circle, which is cut off")
             return None
-        return Reader(self.owner, self.findings, self.groups, (*self.trail, (node, self.groups)))
+        return self._elsewhere(self.groups, (*self.trail, (node, self.groups)))
 
     def note(self, what):
         self.findings.note(what, self.owner)
@@ -79,10 +84,10 @@ class Reader:
                 self.note(f"the node group of '{node.name}' is missing")
                 return self, None
             inside = next((n for n in node.node_tree.nodes if n.type == "GROUP_OUTPUT" and n.is_active_output), None)
-            reader = Reader(self.owner, self.findings, (*self.groups, node), self.trail)
+            reader = self._elsewhere((*self.groups, node), self.trail)
             return reader, inside and input_by_identifier(inside, output.identifier)
         if node.type == "GROUP_INPUT" and self.groups:
-            reader = Reader(self.owner, self.findings, self.groups[:-1], self.trail)
+            reader = self._elsewhere(self.groups[:-1], self.trail)
             return reader, input_by_identifier(self.groups[-1], output.identifier)
         return None
 

@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 
 from ...engine import GlanzError, Object, SceneError
+from .bitmaps import Bitmaps
 from .light import export_light
 from .material import export_material, is_volume_only
 from .mesh import export_mesh
@@ -109,6 +110,7 @@ class _Parts:
     def __init__(self, findings, material_override):
         self._findings = findings
         self._override = material_override
+        self._bitmaps = Bitmaps(findings)
         self._parts, self._meshes, self._materials = {}, {}, {}
 
     def of(self, ob):
@@ -125,27 +127,34 @@ class _Parts:
         return self._parts[key]
 
     def _new(self, ob):
+        if not len(ob.data.polygons):
+            return None
         # Slots, not the mesh's own list: they know which materials are linked to the object instead.
         materials = [self._override or slot.material for slot in ob.material_slots] or [self._override]
-        mesh = self._mesh(ob.data)
-        if not mesh.triangles.shape[1]:
-            return None
         if all(is_volume_only(material) for material in materials):
             self._findings.note(_NOT_RENDERED["VOLUME"], f"object '{ob.name}'")
             return None
         self._note_ignored(ob)
-        return _Placed(ob.name, mesh, tuple(self._material(material) for material in materials))
+        values = tuple(self._material(material) for material in materials)
+        return _Placed(ob.name, self._mesh(ob.data, frozenset().union(*(value.attributes for value in values))), values)
 
-    def _mesh(self, data):
-        key = data.as_pointer()
+    def _mesh(self, data, attributes):
+        # Objects whose textures ask for other things get a mesh of their own.
+        key = data.as_pointer(), attributes
         if key not in self._meshes:
-            self._meshes[key] = export_mesh(data, data.name)
+            self._meshes[key] = export_mesh(data, data.name, attributes)
+            self._note_missing(data, attributes)
         return self._meshes[key]
+
+    def _note_missing(self, data, attributes):
+        for source, layer in attributes:
+            if source == "uv" and layer and layer not in data.uv_layers:
+                self._findings.note(f"there is no UV map '{layer}', it counts as 0", f"mesh '{data.name}'")
 
     def _material(self, material):
         key = material.as_pointer() if material else None
         if key not in self._materials:
-            self._materials[key] = export_material(material, self._findings)
+            self._materials[key] = export_material(material, self._findings, self._bitmaps)
         return self._materials[key]
 
     def _note_ignored(self, ob):

@@ -18,21 +18,26 @@ import numpy as np
 
 from ...engine import Dielectric, Lambert
 from .closure import glossy_lobe
+from .colours import added, cut, times, typical
 
 _ANGLES = 2048
 
 
 def principled_lobes(base, metallic, roughness, ior, specular_level, tint=(1.0, 1.0, 1.0), transmission=0.0):
-    """The lobes of a Principled BSDF, diffuse, glossy and, where it transmits, clear; all but `ior` in [0, 1]."""
-    base = np.clip(np.array(base, np.float64), 0, 1)
+    """The lobes of a Principled BSDF, diffuse, glossy and, where it transmits, clear; all but `ior` in [0, 1].
+
+    The base colour may be a texture; what passes is tinted by its average.
+    """
+    base = cut(base)
     m = min(max(metallic, 0.0), 1.0)
     coat = average_fresnel(effective_ior(ior, specular_level)) * np.clip(np.array(tint, np.float64), 0, 1)
     t = min(max(transmission, 0.0), 1.0)
-    lambert = (1 - m) * (1 - t) * (1 - coat.max()) * base
-    glossy = m * base + (1 - m) * (1 - t) * coat
+    lambert = times(base, (1 - m) * (1 - t) * (1 - coat.max())) if m * t < 1 else (0.0, 0.0, 0.0)
+    coat = (1 - m) * (1 - t) * coat
+    glossy = added(times(base, m), coat) if m > 0 else tuple(coat.tolist())
     clear = (1 - m) * t
-    lobes = (Lambert(tuple(lambert.tolist())), glossy_lobe(glossy.tolist(), roughness))
-    return (*lobes, Dielectric(ior, (clear,) * 3, tuple((clear * np.sqrt(base)).tolist()))) if clear > 0 else lobes
+    lobes = (Lambert(lambert), glossy_lobe(glossy, roughness))
+    return (*lobes, Dielectric(ior, (clear,) * 3, times(np.sqrt(typical(base)), clear))) if clear > 0 else lobes
 
 
 def effective_ior(ior, specular_level):

@@ -1,19 +1,22 @@
 """Blender's shader nodes as closures: to support another node is to add a function and a row of the table."""
 
-import numpy as np
-
 from . import closure
 from .closure import Closure
+from .colours import cut, is_texture
 from .environment import export_environment
 from .nodes import Reader, input_by_identifier
 from .principled import principled_lobes
+from .textures import colour_of
 
 _WHITE = (1.0, 1.0, 1.0)
 
 
-def surface_of(output, owner, findings):
-    """The `Closure` behind the surface of an output node of a material, world or light; `owner` is named in notes."""
-    return _behind(Reader(owner, findings), input_by_identifier(output, "Surface"))
+def surface_of(output, owner, findings, bitmaps=None):
+    """The `Closure` behind the surface of an output node of a material, world or light; `owner` is named in notes.
+
+    Textures are read where there are `bitmaps` for their images.
+    """
+    return _behind(Reader(owner, findings, bitmaps), input_by_identifier(output, "Surface"))
 
 
 def _behind(reader, socket):
@@ -32,7 +35,16 @@ def _approximated(reader, node):
         reader.note(f"{node.bl_label} is not supported and is rendered black")
         return Closure()
     reader.note(f"{node.bl_label} is not supported and is rendered as Diffuse of its colour")
-    return closure.diffuse(reader.colour(node, "Color"))
+    return closure.diffuse(share_of(reader, node, "Color"))
+
+
+def share_of(reader, node, identifier):
+    """The colour of an input that is a share of light; a texture is cut off to [0, 1]."""
+    colour = colour_of(reader, node, identifier)
+    if is_texture(colour) and cut(colour) is not colour:
+        reader.note(f"{identifier} of {node.bl_label} has a texture brighter than 1 or below 0, which is cut off")
+        return cut(colour)
+    return colour
 
 
 def _note_normal(reader, node):
@@ -44,7 +56,7 @@ def _diffuse(reader, node):
     _note_normal(reader, node)
     if reader.number(node, "Roughness") > 0:
         reader.note("Roughness of Diffuse BSDF is left out")
-    return closure.diffuse(reader.colour(node, "Color"))
+    return closure.diffuse(share_of(reader, node, "Color"))
 
 
 def _translucent(reader, node):
@@ -56,18 +68,18 @@ def _glossy(reader, node):
     _note_normal(reader, node)
     if reader.number(node, "Anisotropy") != 0:
         reader.note("Anisotropy of Glossy BSDF is left out")
-    return closure.glossy(reader.colour(node, "Color"), reader.number(node, "Roughness"))
+    return closure.glossy(share_of(reader, node, "Color"), reader.number(node, "Roughness"))
 
 
 def _glass(reader, node):
     _note_normal(reader, node)
     if reader.is_linked(node, "Roughness") or reader.number(node, "Roughness") > 0:
         reader.note("Roughness of Glass BSDF is left out, it is rendered smooth")
-    return closure.glass(reader.colour(node, "Color"), reader.number(node, "IOR", 1.5))
+    return closure.glass(share_of(reader, node, "Color"), reader.number(node, "IOR", 1.5))
 
 
 def _emission(reader, node):
-    return closure.emission(reader.colour(node, "Color"), reader.number(node, "Strength"))
+    return closure.emission(colour_of(reader, node, "Color"), reader.number(node, "Strength"))
 
 
 def _background(reader, node):
@@ -112,8 +124,11 @@ def _principled(reader, node):
     transmission = reader.number(node, "Transmission Weight")
     if transmission > 0 and reader.number(node, "Roughness") > 0:
         reader.note("Roughness of what passes a Principled BSDF is left out, it is rendered smooth")
+    base = share_of(reader, node, "Base Color")
+    if transmission > 0 and is_texture(base):
+        reader.note("what passes a Principled BSDF is tinted by the average of the texture of its Base Color")
     lobes = principled_lobes(
-        reader.colour(node, "Base Color"),
+        base,
         reader.number(node, "Metallic"),
         reader.number(node, "Roughness"),
         reader.number(node, "IOR", 1.5),
@@ -121,8 +136,8 @@ def _principled(reader, node):
         reader.colour(node, "Specular Tint", _WHITE),
         transmission,
     )
-    shine = closure.emission(reader.colour(node, "Emission Color"), reader.number(node, "Emission Strength"))
-    return closure.with_alpha(reader.number(node, "Alpha", 1.0), Closure(lobes, np.asarray(shine.emission)))
+    shine = closure.emission(colour_of(reader, node, "Emission Color"), reader.number(node, "Emission Strength"))
+    return closure.with_alpha(reader.number(node, "Alpha", 1.0), Closure(lobes, shine.emission))
 
 
 _TABLE = {

@@ -6,24 +6,27 @@ import math
 import numpy as np
 
 from ..errors import FileError, GlanzError
-from ..registry import BSDFS, CAMERAS, LIGHTS
-from ..scene import EnvironmentMap, Lens, Material, Medium, Mesh, Object, Scene, Settings, World
+from ..registry import BSDFS, CAMERAS, LIGHTS, TEXTURES
+from ..scene import Bitmap, Coordinates, EnvironmentMap, Lens, Material, Medium, Mesh, Object, Scene, Settings, World
+from ..textures.linear import LinearTexture
 
-SHARED = (Mesh, Material)
+SHARED = (Mesh, Material, Bitmap)
 """Values that many others may hold; they are stored once and are the same value again after reading."""
 PARTS = {
     Scene: {"camera": CAMERAS, "objects": [Object], "lights": [LIGHTS], "world": World},
     Object: {"mesh": Mesh, "materials": [Material]},
     Material: {"lobes": [BSDFS], "medium": Medium},
     World: {"environment": EnvironmentMap},
+    LinearTexture: {"textures": [TEXTURES]},
 }
 """Which fields hold other values, and of which type; in a list: any number of them."""
 
 
 def types():
     """{name in the file: type} of all that may stand in a file; plug-ins are named `light/point` by their keys."""
-    plain = {cls.__name__: cls for cls in (Scene, World, EnvironmentMap, Object, Mesh, Material, Medium, Lens, Settings)}
-    plugins = {"bsdf": BSDFS, "light": LIGHTS, "camera": CAMERAS}
+    values = (Scene, World, EnvironmentMap, Object, Mesh, Material, Medium, Lens, Settings, Bitmap, Coordinates)
+    plain = {cls.__name__: cls for cls in values}
+    plugins = {"bsdf": BSDFS, "light": LIGHTS, "camera": CAMERAS, "texture": TEXTURES}
     return plain | {f"{kind}/{key}": cls for kind, registry in plugins.items() for key, cls in registry.items()}
 
 
@@ -128,6 +131,8 @@ def _check_field(cls, field, value):
     part = PARTS.get(cls, {}).get(field.name)
     if part is not None:
         fits = isinstance(value, tuple) and all(map(_fits_type(part[0]), value)) if isinstance(part, list) else _fits_type(part)(value)
+    elif type(value) in TEXTURES.values():
+        fits = cls in BSDFS.values() or (cls is Material and field.name == "emission")
     elif dataclasses.is_dataclass(field.default):
         fits = type(value) is type(field.default)
     elif field.default is not dataclasses.MISSING:

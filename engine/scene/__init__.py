@@ -1,9 +1,11 @@
 """Immutable scene values: what a user hands to the renderer."""
 
+from .bitmap import Bitmap
+from .coordinates import Coordinates
 from .environment import EnvironmentMap
 from .lens import Lens
 from .medium import Medium
 from .settings import Settings
 from .values import Material, Mesh, Object, Scene, World
 
-__all__ = ["EnvironmentMap", "Lens", "Material", "Medium", "Mesh", "Object", "Scene", "Settings", "World"]
+__all__ = ["Bitmap", "Coordinates", "EnvironmentMap", "Lens", "Material", "Medium", "Mesh", "Object", "Scene", "Settings", "World"]

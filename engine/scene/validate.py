@@ -7,9 +7,11 @@ import numpy as np
 
 from ..constants import EPS32
 from ..errors import SceneError
+from ..interfaces import is_straight
 from ..registry import BSDFS, CAMERAS, FILTERS, INTEGRATORS, LIGHTS, PASSES, SAMPLERS
 from .environment import EnvironmentMap
 from .medium import Medium
+from .textured import brightest, coordinates_of, darkest, is_texture, material_textures, textures_of, with_inner
 
 
 def validate(scene, settings):
@@ -65,6 +67,24 @@ def _check_object(o, warnings):
 
 
 def _check_material(material):
+    for lobe in material.lobes:
+        if type(lobe) not in BSDFS.values():
+            raise SceneError(f"material '{material.name}': {type(lobe).__name__} is not a BSDF")
+        if is_straight(lobe) and textures_of(lobe):
+            raise SceneError(f"material '{material.name}': what passes a {lobe.key} surface is a texture, allowed: a constant")
+    if is_texture(material.ambient):
+        raise SceneError(f"material '{material.name}': ambient is a texture, allowed: three finite numbers from 0 on")
+    for texture in material_textures(material):
+        for part in with_inner(texture):
+            part.check(material.name)
+        for coordinates in coordinates_of(texture):
+            coordinates.check(material.name)
+    # Between the least and the largest values of its textures a material must be allowed, whichever meet at a point.
+    for extreme in (brightest, darkest) if material_textures(material) else (lambda value: value,):
+        _check_constant(dataclasses.replace(extreme(material), lobes=tuple(map(extreme, material.lobes))))
+
+
+def _check_constant(material):
     for name in ("emission", "ambient"):
         if not _is_colour(value := getattr(material, name)):
             raise SceneError(f"material '{material.name}': {name} is {value}, allowed: three finite numbers from 0 on")
@@ -74,8 +94,6 @@ def _check_material(material):
         material.medium.check(material.name)
     total = np.zeros(3)
     for lobe in material.lobes:
-        if type(lobe) not in BSDFS.values():
-            raise SceneError(f"material '{material.name}': {type(lobe).__name__} is not a BSDF")
         # First what albedo() computes with, then what it returns.
         lobe.check(material.name)
         if not _is_colour(lobe.albedo()):

@@ -14,6 +14,7 @@ from ..maths.normals import vertex_normals
 from ..maths.poses import between
 from .medium import Medium
 from .motion import no_motion, settle
+from .textured import coordinates_of, is_texture, material_textures
 
 
 def _array(owner, name, dtype, shape):
@@ -39,6 +40,10 @@ class Mesh:
     normals           (3, K) shading normals, unit; none (3, 0): the mesh is flat
     normal_indices    (3, F) which normal each corner of each triangle takes; none (3, 0): the mesh is flat
     material_indices  (F,) which of the object's materials each triangle wears; none (0,): the first
+    uv_layers         the names of its L layers of texture coordinates; the first is the one meant where none is named
+    uvs               (L, 2, K) of each layer
+    uv_indices        (3, F) which of them each corner of each triangle takes, in all layers; none (3, 0) without layers
+    generated         (3, V) texture coordinates of the vertices; none (3, 0): the bounding box as the unit cube
     shapes            (K, 3, V) the vertices at equally spaced times, the first and the last included, while the shutter is open;
                       none (0, 3, 0): the mesh keeps its shape. `vertices` are then set to the middle
     shape_normals     (K, 3, K_n) the normals at the same times; none (0, 3, 0): they stay
@@ -51,6 +56,10 @@ class Mesh:
     normals: np.ndarray = field(default_factory=lambda: np.zeros((3, 0)))
     normal_indices: np.ndarray = field(default_factory=lambda: np.zeros((3, 0)))
     material_indices: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    uv_layers: tuple = ()
+    uvs: np.ndarray = field(default_factory=lambda: np.zeros((0, 2, 0)))
+    uv_indices: np.ndarray = field(default_factory=lambda: np.zeros((3, 0)))
+    generated: np.ndarray = field(default_factory=lambda: np.zeros((3, 0)))
     shapes: np.ndarray = field(default_factory=lambda: np.zeros((0, 3, 0)))
     shape_normals: np.ndarray = field(default_factory=lambda: np.zeros((0, 3, 0)))
 
@@ -62,9 +71,18 @@ class Mesh:
         _array(self, "normals", np.float32, (3, None))
         _array(self, "normal_indices", np.int32, (3, None))
         _array(self, "material_indices", np.int32, (None,))
+        object.__setattr__(self, "uv_layers", tuple(self.uv_layers))
+        _array(self, "uvs", np.float32, (len(self.uv_layers), 2, None))
+        _array(self, "uv_indices", np.int32, (3, None))
+        _array(self, "generated", np.float32, (3, None))
         _check_indices(self, "triangles", self.vertices.shape[1])
         _check_indices(self, "normal_indices", self.normals.shape[1])
-        for name in ("normal_indices", "material_indices"):
+        _check_indices(self, "uv_indices", self.uvs.shape[2])
+        if self.generated.shape[1] not in (0, self.vertices.shape[1]):
+            raise SceneError(f"mesh '{self.name}': generated must have one point for each of {self.vertices.shape[1]} vertices, or none")
+        if self.uv_layers and self.uv_indices.shape[1] != self.triangles.shape[1]:
+            raise SceneError(f"mesh '{self.name}': uv_indices must have one entry for each of {self.triangles.shape[1]} triangles")
+        for name in ("normal_indices", "material_indices", "uv_indices"):
             if getattr(self, name).shape[-1] not in (0, self.triangles.shape[1]):
                 raise SceneError(f"mesh '{self.name}': {name} must have one entry for each of {self.triangles.shape[1]} triangles, or none")
 
@@ -125,6 +143,7 @@ class Material:
 
     lobes     BSDF values (`Lambert`, `Phong`, ...); none: black
     emission  radiance leaving both sides [W m^-2 sr^-1], linear Rec. 709
+    The emission and any parameter of a lobe may be a texture.
     ambient   k_a of the lecture's illumination model, the share of each light that arrives everywhere; no other model knows it
     medium    the `Medium` behind surfaces that let light pass; None: nothing is known of it, and nothing is absorbed
     """
@@ -138,7 +157,13 @@ class Material:
     def __post_init__(self):
         object.__setattr__(self, "lobes", tuple(self.lobes))
         for name in ("emission", "ambient"):
-            object.__setattr__(self, name, tuple(float(c) for c in getattr(self, name)))
+            if not is_texture(getattr(self, name)):
+                object.__setattr__(self, name, tuple(float(c) for c in getattr(self, name)))
+
+    @property
+    def attributes(self):
+        """What its textures are looked up at: a set of `Coordinates.attribute`."""
+        return frozenset(c.attribute for texture in material_textures(self) for c in coordinates_of(texture))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

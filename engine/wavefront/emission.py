@@ -4,6 +4,7 @@ import numpy as np
 
 from ..maths import patches
 from ..maths.vectors import dot
+from ..world.texturing import TexturePoints
 from .mis import power_heuristic
 
 
@@ -15,6 +16,7 @@ def add_emission(plan, rays, hits, film):
         return
     patch = world.emitters.patch.take(hits.prim.take(lanes) - world.triangles.first_emitter)
     L = k.radiance.take(patch, axis=1) * rays.beta.take(lanes, axis=1)
+    L = plan.shine(plan, rays, hits, lanes, L)
     if rays.depth:
         cos = np.abs(dot(k.normal.take(patch, axis=1), rays.d.take(lanes, axis=1)))
         t = hits.t.take(lanes)
@@ -22,3 +24,15 @@ def add_emission(plan, rays, hits, film):
         pdf *= world.lights.choice.probability(world.lights.first_patch + patch, rays.o.take(lanes, axis=1))
         L *= power_heuristic(rays.pdf.take(lanes), pdf)
     film.add(rays.slot.take(lanes), L)
+
+
+def even_shine(plan, rays, hits, lanes, L):
+    """Radiance L (3, M) of emitters where the rays `lanes` (M,) have met them, as it is there: everywhere the same."""
+    return L
+
+
+def textured_shine(plan, rays, hits, lanes, L):
+    """The same where emission may be textured."""
+    prim, d = hits.prim.take(lanes), rays.d.take(lanes, axis=1)
+    across = plan.footprints(plan, rays.carried.take(lanes), prim, -d, hits.t.take(lanes))
+    return plan.world.glow.seen(L, TexturePoints(plan.world.attributes, prim, hits.u.take(lanes), hits.v.take(lanes), across))

@@ -8,6 +8,7 @@ from ..errors import AccelError, SceneError
 from ..maths.vectors import cross, dot, length
 from ..scene.values import Material
 from .accel import Accel
+from .attributes import compile_attributes
 from .emitters import Emitters
 from .environment import Environment
 from .frame import Frame
@@ -18,6 +19,7 @@ from .movers import Movers, Moving
 from .moving_lamps import MovingLamps
 from .passing import Passing
 from .placement import place
+from .texturing import EVEN, TexturedGlow
 from .touching import moved_apart
 
 FARTHEST = 1e12
@@ -60,6 +62,8 @@ class CompiledWorld:
     accel       the triangles that stand still
     movers      the others; None where all stand still
     emitters    the patches that emit: the last ones of `lights`, made of the last ones of the triangles that stand still
+    attributes  {key: `Attribute`}: what textures are looked up at
+    glow        what textured emitters shine with, see `texturing`
     background  (3, 1) float32 [W m^-2 sr^-1]
     media       what is inside of bodies; None where nobody asks
     passing     what passes surfaces straight on; None where nobody asks
@@ -75,6 +79,8 @@ class CompiledWorld:
     background: np.ndarray
     media: Media | None
     passing: Passing | None
+    attributes: dict
+    glow: object
     warnings: tuple
 
 
@@ -120,8 +126,8 @@ def compile_world(
     rank = table.emission.any(axis=0)[material].astype(np.int8)
     faces = sum(part.owner.size for part in still)
     rank[faces:] = _MOVES
-    glow = table.emission.take(material[faces:], axis=1)
-    glowing = np.where(usable[faces:], corners[:, :, faces:], 0) if glow.any() else None
+    glows = [colours.take(material[faces:], axis=1) for colours in (table.emission, table.shine)]
+    glowing = np.where(usable[faces:], corners[:, :, faces:], 0) if glows[0].any() else None
     keep = np.nonzero(usable & (double_area > 0))[0]
     keep = keep[np.argsort(rank[keep], kind="stable")]
     rank = rank[keep]
@@ -145,25 +151,36 @@ def compile_world(
         raise SceneError(f"scene '{scene.name}': {error}") from error
     last = slice(triangles.first_emitter, triangles.first_moving)
     emitters = Emitters.of(
-        vertices, indices[:, last], normal[:, last], table.emission.take(material[last], axis=1), owner[keep][last]
+        vertices,
+        indices[:, last],
+        normal[:, last],
+        table.emission.take(material[last], axis=1),
+        owner[keep][last],
+        np.isin(material[last], list(table.glowing)),
+        np.arange(last.start, last.stop) if table.glowing else None,
     )
     if glowing is not None:
-        emitters = emitters.followed_by(MovingLamps.of(movers, moving, glowing, glow, keep[triangles.first_moving :] - faces))
+        kept = keep[triangles.first_moving :] - faces
+        emitters = emitters.followed_by(MovingLamps.of(movers, moving, glowing, *glows, kept, bool(table.glowing)))
     # Asked for with every feature there is, it may still be missing or black.
     shines = has_environment and scene.world.environment is not None and scene.world.environment.gives_light
     environment = Environment.of(scene.world) if shines else None
+    attributes, lost = compile_attributes(parts, keep, material, table.attributes())
+    glow = TexturedGlow(table.glowing, material, attributes) if table.glowing else EVEN
     return CompiledWorld(
         frame=frame,
         accel=accel,
         movers=movers,
         triangles=triangles,
         materials=table,
-        lights=Lights.of(scene.lights, environment, emitters, frame, radius, has_choice, samples_lights),
+        lights=Lights.of(scene.lights, environment, emitters, frame, radius, has_choice, samples_lights, glow),
         emitters=emitters,
         background=np.array(scene.world.radiance, np.float32)[:, None],
         media=Media.of(bodies, row, material, owner[keep], frame.scale) if has_media else None,
         passing=passing_of(materials) if passing_of else None,
-        warnings=warnings,
+        attributes=attributes,
+        glow=glow,
+        warnings=(*warnings, *lost),
     )
 
 

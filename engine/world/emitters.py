@@ -15,7 +15,9 @@ from .moving_lamps import MovingLamps
 class Emitters:
     """The emissive patches of a world: first the parallelograms, then the triangles, then those that move, each object by object.
 
-    k               columns of `maths.patches`; of those that move at the middle of the shutter
+    k               columns of `maths.patches`; of those that move at the middle of the shutter. The radiance of textured ones is 1,
+                    and where there may be any there is a column `prim`: the triangle of each patch
+    mean            (3, M) their radiance, on average
     parallelograms  how many of them are
     objects         (M,) ascending within each kind: which object a patch belongs to
     patch           (E,) intp: the patch that each emissive triangle which stands still belongs to, in the order of the triangles
@@ -23,15 +25,20 @@ class Emitters:
     """
 
     k: Columns
+    mean: np.ndarray
     parallelograms: int
     objects: np.ndarray
     patch: np.ndarray
     moving: MovingLamps | None = None
 
     @classmethod
-    def of(cls, vertices, triangles, normal, radiance, owner):
-        """From vertices (3, V), and for each emissive triangle: vertex indices, normal, radiance (3, E), object (E,)."""
-        first = _first_of_pairs(vertices, triangles, radiance, owner)
+    def of(cls, vertices, triangles, normal, radiance, owner, is_textured, prim=None):
+        """From vertices (3, V), and for each emissive triangle: vertex indices, normal, radiance (3, E), object (E,).
+
+        Where it `is_textured` (E,) the radiance is its average, and each triangle is a patch of its own. `prim` (E,) are the
+        numbers of the triangles, for the column of that name; None: it is not wanted.
+        """
+        first = _first_of_pairs(vertices, triangles, np.where(is_textured, np.nan, radiance), owner)
         single = np.ones(owner.size, bool)
         single[first] = single[first + 1] = False
         alone = np.nonzero(single)[0]
@@ -58,9 +65,11 @@ class Emitters:
             normal=normal.take(lead, axis=1),
             lift=lift(v0, e1, e2),
             area=area.astype(np.float32),
-            radiance=radiance.take(lead, axis=1),
+            radiance=np.where(is_textured, np.float32(1), radiance).take(lead, axis=1),
         )
-        return cls(k, first.size, owner[lead], patch)
+        if prim is not None:
+            k.prim = prim.take(lead)
+        return cls(k, radiance.take(lead, axis=1), first.size, owner[lead], patch)
 
     def followed_by(self, moving):
         """With the `MovingLamps` after them."""
@@ -69,7 +78,8 @@ class Emitters:
         # What has no area in the middle may have one before: it must not be left out.
         middle.area = np.max([k.area for k in (middle, *others)], axis=0)
         k = Columns(**{name: np.concatenate((column, getattr(middle, name)), axis=-1) for name, column in vars(self.k).items()})
-        return replace(self, k=k, objects=np.concatenate((self.objects, moving.owner)), moving=moving)
+        mean, objects = np.concatenate((self.mean, moving.mean), axis=1), np.concatenate((self.objects, moving.owner))
+        return replace(self, k=k, mean=mean, objects=objects, moving=moving)
 
     @property
     def count(self):
@@ -83,7 +93,7 @@ class Emitters:
 
     def power(self):
         """Radiant flux of both sides, luminance, in units of render space squared, (M,) float64."""
-        return 2 * PI * self.k.area.astype(np.float64) * (np.array(LUMINANCE) @ self.k.radiance.astype(np.float64))
+        return 2 * PI * self.k.area.astype(np.float64) * (np.array(LUMINANCE) @ self.mean.astype(np.float64))
 
     def weights(self):
         """What each patch weighs, see `interfaces.Light.weight`, as columns (M,) float64; power as luminance."""

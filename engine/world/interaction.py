@@ -22,6 +22,7 @@ class Surface:
     is_front  (M,) bool: the viewer is on the front, by winding
     prim      (M,) triangles
     material  (M,) rows of the materials
+    u, v      (M,) where in the triangle: barycentric coordinates of its second and third corner
     """
 
     p: np.ndarray
@@ -32,6 +33,8 @@ class Surface:
     is_front: np.ndarray
     prim: np.ndarray
     material: np.ndarray
+    u: np.ndarray
+    v: np.ndarray
 
 
 def flat_normals(triangles, prim, u, v, n, sign):
@@ -78,7 +81,7 @@ def interact(triangles, shading_normals, d, hits):
     offset += triangles.extent.take(prim)
     offset *= np.float32(START_ULPS * EPS32)
     ns = shading_normals(triangles, prim, u, v, n, sign)
-    return Surface(p, wo, n, ns, p + offset * n, sign > 0, prim, triangles.material.take(prim))
+    return Surface(p, wo, n, ns, p + offset * n, sign > 0, prim, triangles.material.take(prim), u, v)
 
 
 def leave_in_front(surface, wi):

@@ -11,6 +11,7 @@ from ..lights.triangle import TriangleLight
 from .environment import Environment
 from .light_choice import ByPlace, OnlyLight
 from .light_tree_choice import ByTree
+from .texturing import EVEN
 
 MOST_WEIGHED = 32
 """Up to so many lights are all weighed against each other at every point; of more, groups are."""
@@ -23,6 +24,7 @@ class Group:
     """Lights of one kind: indices first .. first + count - 1 of all lights.
 
     is_met  scattered rays look for them; else shadow rays are the only way to find them, and must not share with another
+    glow    what textured patches shine with, see `texturing`
     """
 
     light: type
@@ -30,17 +32,22 @@ class Group:
     first: int
     count: int
     is_met: bool = True
+    glow: object = EVEN
 
     def sample(self, row, p, u2, time):
         """A point on the lights `row` (N,) of the group at `time` (N,), or on its only light (None): see `interfaces.Light.sample`."""
-        wi, distance, E, pdf = self.light.sample(self._rows(row, time), p, u2)
+        wi, distance, E, pdf = self._sample(self._rows(row, time), p, u2)
         return wi, distance, E, pdf if self.is_met else np.full_like(pdf, np.inf)
 
     def sample_middle(self, row, p, u2, time):
         """The same for the middle of the lights; u2 (2, N) counts for those that have none."""
         k = self._rows(row, time)
         middle = getattr(self.light, "middle", None)
-        return self.light.sample(k, p, np.broadcast_to(middle(k), u2.shape) if middle else u2)
+        return self._sample(k, p, np.broadcast_to(middle(k), u2.shape) if middle else u2)
+
+    def _sample(self, k, p, u2):
+        wi, distance, E, pdf = self.light.sample(k, p, u2)
+        return wi, distance, self.glow.lit(E, k, p, wi, distance), pdf
 
     def _rows(self, row, time):
         return self.k if row is None or self.count == 1 else self.k.take(row)
@@ -83,10 +90,11 @@ class Lights:
     hittable: tuple
 
     @classmethod
-    def of(cls, lamps, environment, emitters, frame, radius, has_choice=True, are_sampled=True):
+    def of(cls, lamps, environment, emitters, frame, radius, has_choice=True, are_sampled=True, glow=EVEN):
         """From light values `lamps`, an `Environment` or None, and `Emitters`; `radius` [m] is the scene's, for what is distant.
 
-        `has_choice` says that there may be more than one light, `are_sampled` that shadow rays look for them.
+        `has_choice` says that there may be more than one light, `are_sampled` that shadow rays look for them;
+        `glow` is that of the emitters.
         """
         lamps = [lamp for lamp in lamps if any(lamp.power())]
         kinds = dict.fromkeys(type(lamp) for lamp in lamps)
@@ -103,9 +111,9 @@ class Lights:
         split = emitters.parallelograms
         for kind, patches in ((ParallelogramLight, slice(0, split)), (TriangleLight, slice(split, emitters.still))):
             if patches.stop > patches.start:
-                groups.append(Group(kind, emitters.k.part(patches), first_patch + patches.start, patches.stop - patches.start))
+                groups.append(Group(kind, emitters.k.part(patches), first_patch + patches.start, patches.stop - patches.start, True, glow))
         if emitters.moving:
-            groups.append(MovingGroup(TriangleLight, emitters.moving, first_patch + emitters.still, emitters.moving.count))
+            groups.append(MovingGroup(TriangleLight, emitters.moving, first_patch + emitters.still, emitters.moving.count, True, glow))
         if not groups:
             return cls((), None, 0, OnlyLight(), (), ())
         hittable = tuple(_hittable(lamps, groups))

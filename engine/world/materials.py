@@ -9,6 +9,7 @@ from ..constants import INV_PI, LUMINANCE
 from ..maths.frames import to_world
 from ..maths.vectors import dot
 from ..maths.warps import square_to_uniform_hemisphere
+from ..scene.textured import averaged, coordinates_of, is_number, textures_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,6 +21,16 @@ class Lobe:
 
 
 @dataclass(frozen=True, slots=True)
+class Textured:
+    """A column of one lobe's table that a texture fills in; `is_number`: with its luminance."""
+
+    lobe: int
+    column: str
+    is_number: bool
+    texture: object
+
+
+@dataclass(frozen=True, slots=True)
 class Materials:
     """All materials of a world.
 
@@ -27,33 +38,55 @@ class Materials:
     thresholds  (lobes - 1, M) float32: a material samples the lobe whose interval of [0, 1) holds u1
     shares      (lobes, M) float32: the probability of each lobe, in proportion to its albedo
     emission    (3, M) float32 [W m^-2 sr^-1]
+    shine       (3, M) float32, the same, but 1 where a texture gives it
     ambient     (3, M) float32, k_a
     kind        `Reflection`, or `TwoSided` where a lobe with a width transmits
+    textured    {row: the `Textured` columns of that material}
+    glowing     {row: the texture that is the emission of that material}
+    Where there is a texture, the tables hold its average.
     """
 
     lobes: tuple
     thresholds: np.ndarray
     shares: np.ndarray
     emission: np.ndarray
+    shine: np.ndarray
     ambient: np.ndarray
     kind: type
+    textured: dict
+    glowing: dict
 
     @classmethod
     def of(cls, materials, bsdfs, without=()):
         """Compile `materials`; `bsdfs` are the plug-ins to make room for, wanted or not, `without` parameters nobody asks for."""
         bsdfs = sorted(bsdfs, key=lambda bsdf: bsdf.is_specular)
         slots = [(bsdf, i) for bsdf in bsdfs for i in range(max(1, max(_count(m, bsdf) for m in materials)))]
-        lobes, albedos = [], np.zeros((len(slots), len(materials)))
+        lobes, albedos, textured = [], np.zeros((len(slots), len(materials))), {}
         for slot, (bsdf, i) in enumerate(slots):
             chosen = [next(iter([lobe for lobe in m.lobes if type(lobe) is bsdf][i:]), bsdf.black()) for m in materials]
+            for row, lobe in enumerate(chosen):
+                for name, texture in textures_of(lobe).items():
+                    textured.setdefault(row, []).append(Textured(slot, name, is_number(lobe, name), texture))
+            chosen = [averaged(lobe) for lobe in chosen]
             rows = [{name: value for name, value in lobe.row().items() if name not in without} for lobe in chosen]
             lobes.append(Lobe(bsdf, columns(rows)))
             albedos[slot] = [np.dot(LUMINANCE, lobe.albedo()) for lobe in chosen]
         total = albedos.sum(axis=0)
         shares = np.where(total > 0, albedos / np.where(total > 0, total, 1), 1 / max(len(slots), 1)).astype(np.float32)
-        emission, ambient = (_colours(getattr(m, name) for m in materials) for name in ("emission", "ambient"))
+        emission, ambient = (_colours(getattr(averaged(m), name) for m in materials) for name in ("emission", "ambient"))
         kind = TwoSided if any(bsdf.transmits and not bsdf.is_specular for bsdf in bsdfs) else Reflection
-        return cls(tuple(lobes), _thresholds(shares), shares, emission, ambient, kind)
+        glowing = {row: textures_of(m)["emission"] for row, m in enumerate(materials) if "emission" in textures_of(m)}
+        shine = emission.copy()
+        shine[:, list(glowing)] = 1
+        return cls(tuple(lobes), _thresholds(shares), shares, emission, shine, ambient, kind, textured, glowing)
+
+    def attributes(self):
+        """{attribute of meshes: rows of the materials whose textures are looked up there}."""
+        found = {}
+        for row, texture in [*((row, t.texture) for row, ts in self.textured.items() for t in ts), *self.glowing.items()]:
+            for coordinates in coordinates_of(texture):
+                found.setdefault(coordinates.attribute, set()).add(row)
+        return found
 
     @property
     def rough_lobes(self):

@@ -6,6 +6,7 @@ import numpy as np
 
 from ..scene.bodies import inside_of, sharing_space, volume
 from ..scene.medium import Medium
+from ..scene.textured import averaged
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -85,4 +86,5 @@ class Bodies:
 
 def _index(materials):
     """Index of refraction and spread of what is inside: those of the first surface that has them."""
-    return next(((lobe.ior, lobe.spread) for m in materials for lobe in m.lobes if hasattr(lobe, "ior") and any(lobe.albedo())), (1, 0))
+    seen = (lobe for m in materials for lobe in map(averaged, m.lobes) if hasattr(lobe, "ior") and any(lobe.albedo()))
+    return next(((lobe.ior, lobe.spread) for lobe in seen), (1, 0))

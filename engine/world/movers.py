@@ -54,7 +54,8 @@ class Moving:
             matrix[:3, :3] = keys.stretch_at(time)
             matrix[:3, 3] = -matrix[:3, :3] @ anchor
             still = replace(o, mesh=o.mesh.at(time), world_from_object=matrix, motion=no_motion())
-            parts += place([(number, still)], row, smooth)
+            # Textures stick to the mesh: they are looked up where its corners are at rest.
+            parts += [replace(part, mesh=o.mesh) for part in place([(number, still)], row, smooth)]
         world = o.world_from_object[:3, :3] @ vertices + o.world_from_object[:3, 3:]
         return cls(tuple(parts), world, keys, anchor, keys.stretch_at(0.5) if is_stretched and not deforms else None)
 

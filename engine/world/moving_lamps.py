@@ -19,7 +19,9 @@ class MovingLamps:
     first, stride  (M,) intp: which face a lamp is at the first step, and how much further it is at each of the next
     steps          (M,) how many steps there are
     mover          (M,) intp, the object; owner (M,) its place in the scene
-    radiance       (3, M) float32
+    radiance       (3, M) float32, 1 for those with a texture
+    mean           (3, M) their radiance, on average
+    prim           (F,) intp: the triangle of the world that each face is; None where nobody asks
     lamp           (T,) intp: which lamp each moving triangle of the world is, -1 for those that do not emit
     """
 
@@ -31,14 +33,16 @@ class MovingLamps:
     mover: np.ndarray
     owner: np.ndarray
     radiance: np.ndarray
+    mean: np.ndarray
+    prim: object
     lamp: np.ndarray
 
     @classmethod
-    def of(cls, movers, moving, corners, radiance, kept):
+    def of(cls, movers, moving, corners, radiance, shine, kept, is_located):
         """Of the objects `moving`, a list of `movers.Moving`.
 
-        corners (3 coordinates, 3, F) and radiance (3, F) are those of all their faces, part after part; kept (T,) which of them are
-        the moving triangles of the world.
+        corners (3 coordinates, 3, F), radiance (3, F) and `shine` (3, F), see `Emitters.of`, are those of all their faces, part
+        after part; kept (T,) which of them are the moving triangles of the world. `is_located` asks for `prim`.
         """
         emits = radiance.any(axis=0)
         lamp = np.full(emits.size, -1)
@@ -57,7 +61,11 @@ class MovingLamps:
         first, stride, steps, mover = map(np.concatenate, (first, stride, steps, mover))
         owner = np.array([m.parts[0].owner[0] for m in moving]).take(mover)
         corners = np.ascontiguousarray(corners.transpose(1, 0, 2))
-        return cls(movers, corners, first, stride, steps, mover, owner, radiance.take(first, axis=1), lamp.take(kept))
+        # A face that is not kept has no area: whatever it shows is multiplied by 0.
+        prim = np.full(emits.size, movers.first)
+        prim[kept] = movers.first + np.arange(kept.size)
+        colours = (colour.take(first, axis=1) for colour in (shine, radiance))
+        return cls(movers, corners, first, stride, steps, mover, owner, *colours, prim if is_located else None, lamp.take(kept))
 
     @property
     def count(self):
@@ -67,7 +75,8 @@ class MovingLamps:
     def at(self, lamp, time):
         """The columns of `maths.patches` of the lamps `lamp` (N,) at `time` (N,), render space."""
         step = (time * self.steps.take(lamp)).astype(np.intp)
-        local = self.corners.take(self.first.take(lamp) + step * self.stride.take(lamp), axis=2)
+        face = self.first.take(lamp) + step * self.stride.take(lamp)
+        local = self.corners.take(face, axis=2)
         pose = self.movers.poses.at(self.mover.take(lamp), time)
         v0, v1, v2 = (pose.points(corner).astype(np.float32) for corner in local)
         e1, e2 = v1 - v0, v2 - v0
@@ -82,4 +91,5 @@ class MovingLamps:
             lift=lift(v0, e1, e2) + np.float32(END_ULPS * EPS32) * np.abs(local).max(axis=(0, 1)),
             area=(0.5 * double_area).astype(np.float32),
             radiance=self.radiance.take(lamp, axis=1),
+            **({} if self.prim is None else {"prim": self.prim.take(face)}),
         )

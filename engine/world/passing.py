@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..interfaces import is_straight, lets_shadow_rays_pass
+from ..scene.textured import averaged, brightest
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -24,15 +25,16 @@ class Passing:
 
     @classmethod
     def of(cls, materials, tints_glass=False):
-        """From `Material` values; with `tints_glass` shadow rays pass what refracts, too, weakened by its transmittance."""
+        """From `Material` values; with `tints_glass` shadow rays pass what refracts, too, weakened by its transmittance, textured
+        or not on average."""
         straight, shadow, other = np.zeros((3, 3, len(materials)))
         for i, material in enumerate(materials):
             for lobe in material.lobes:
                 if is_straight(lobe):
                     straight[:, i] += lobe.transmittance
                 else:
-                    other[:, i] += lobe.albedo()
+                    other[:, i] += brightest(lobe).albedo()
                 if lets_shadow_rays_pass(lobe, tints_glass):
-                    shadow[:, i] += lobe.transmittance
+                    shadow[:, i] += averaged(lobe).transmittance
         straight, shadow, other = (share.astype(np.float32) for share in (straight, shadow, other))
         return cls(straight, other, straight.any(axis=0), shadow)

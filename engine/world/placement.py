@@ -17,6 +17,8 @@ class Part:
     corner_normals  (9, F) float32, world space, unit; (9, 0): flat, or not wanted
     material        (F,) intp, rows of the materials
     owner           (F,) intp, the object's place in the scene
+    mesh            the mesh that they share
+    mirrored        whether each object turns the winding of its triangles, bool
     """
 
     vertices: np.ndarray
@@ -24,6 +26,8 @@ class Part:
     corner_normals: np.ndarray
     material: np.ndarray
     owner: np.ndarray
+    mesh: object
+    mirrored: np.ndarray
 
 
 def place(numbered, row, smooth):
@@ -61,6 +65,8 @@ def _place_instances(instances, row, smooth):
         corner_normals=corner_normals,
         material=np.concatenate(rows),
         owner=np.repeat([place_in_scene for place_in_scene, _ in instances], faces),
+        mesh=mesh,
+        mirrored=mirrored,
     )
 
 

@@ -10,7 +10,7 @@ from glanz import engine
 
 ROOT = Path(__file__).resolve().parents[2]
 ENGINE = ROOT / "engine"
-PLUGINS = ("bsdfs", "lights", "cameras", "samplers", "filters", "passes", "integrators")
+PLUGINS = ("bsdfs", "lights", "cameras", "samplers", "filters", "passes", "integrators", "textures")
 LAYERS = (
     ("errors", "constants", "arrays", "registry"),
     ("maths",),
@@ -18,7 +18,7 @@ LAYERS = (
     ("needs",),
     ("scene",),
     ("requirements",),
-    ("bsdfs", "lights", "cameras", "samplers", "filters", "passes"),
+    ("bsdfs", "lights", "cameras", "samplers", "filters", "passes", "textures"),
     ("world",),
     ("wavefront",),
     ("integrators",),

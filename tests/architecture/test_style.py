@@ -13,6 +13,7 @@ SHIPPED = ("engine", "addon", "cli")
 SMALLEST = 1e-3
 SMALL_NUMBERS = {
     ("engine/scene/validate.py", 1e-6): "how far the sum of reflectances given as float32 may exceed 1",
+    ("engine/textures/checker.py", 1e-6): "Blender's own shift of its checker, in units of its cubes",
 }
 """The only numbers below SMALLEST that the engine may type, and why."""
 BY_PROTOCOL = {

@@ -27,7 +27,7 @@ from glanz.engine import (
 from glanz.engine.plan import Plan
 from glanz.engine.wavefront.numbers import Dimension
 from glanz.engine.world.accel import Accel
-from glanz.tests import helpers as h, scenes
+from glanz.tests import helpers as h, scenes, textured
 from glanz.tests.moving import moving, shifted, turned
 
 SETTINGS = h.settings(width=16, height=16, samples=4, max_depth=3)
@@ -189,6 +189,7 @@ SCENES = {
     "everything": scenes.everything(),
     "moving": h.scene([moving(MATTE, turned((0.0, 0.5))), FLOOR], [BULB]),
     "moving camera": h.scene([MATTE, FLOOR], [BULB], h.replaced(EYE, motion=shifted((0, 0, 0), (0.3, 0, 0)) @ VIEW)),
+    "textured": textured.everything(),
 }
 
 

@@ -11,10 +11,15 @@ from hypothesis import HealthCheck, given, settings as hypothesis_settings, stra
 
 from glanz.engine import (
     AreaLight,
+    Bitmap,
+    CheckerTexture,
+    Coordinates,
     EnvironmentMap,
     FileError,
+    ImageTexture,
     Lambert,
     Lens,
+    LinearTexture,
     Material,
     Medium,
     Mesh,
@@ -30,7 +35,7 @@ from glanz.engine import (
     read_scene,
     write_scene,
 )
-from glanz.engine.registry import BSDFS, CAMERAS, LIGHTS
+from glanz.engine.registry import BSDFS, CAMERAS, LIGHTS, TEXTURES
 
 
 def a_scene():
@@ -132,6 +137,46 @@ def test_every_plug_in_with_its_defaults_comes_back(tmp_path):
         scene = Scene(camera=camera, lights=lights, objects=(Object(name="o", mesh=mesh, materials=(material,)),))
         write_scene(tmp_path / "a", scene, Settings())
         assert same(scene, read_scene(tmp_path / "a")[0])
+
+
+def textured_scene():
+    rng = np.random.default_rng(3)
+    bitmap = Bitmap(name="wood", pixels=rng.integers(0, 256, (3, 5, 7)).astype(np.uint8), is_srgb=False)
+    image = ImageTexture(bitmap, Coordinates(layer="second", matrix=rng.standard_normal((4, 4))), "mirror", False)
+    mixed = LinearTexture((image, CheckerTexture()), ((0.1, 0.2, 0.3), (0.3, 0.2, 0.1)), (0.1, 0.1, 0.1), True)
+    material = Material(name="m", lobes=(Lambert(mixed), Phong((0.1, 0.1, 0.1), image)), emission=image)
+    mesh = Mesh(
+        name="m", vertices=rng.standard_normal((3, 4)), triangles=rng.integers(0, 4, (3, 5)), generated=rng.random((3, 4)),
+        uv_layers=("first", "second"), uvs=rng.random((2, 2, 9)), uv_indices=rng.integers(0, 9, (3, 5)),
+    )  # fmt: skip
+    return Scene(camera=None, objects=(Object(name="o", mesh=mesh, materials=(material, Material(name="n", emission=image))),))
+
+
+def test_textures_come_back_and_pictures_stay_shared(tmp_path):
+    write_scene(tmp_path / "a", textured_scene(), Settings())
+    back = read_scene(tmp_path / "a")[0]
+    assert same(textured_scene(), back)
+    first, second = back.objects[0].materials
+    assert first.emission.bitmap is second.emission.bitmap is first.lobes[0].reflectance.textures[0].bitmap
+
+
+def test_every_texture_with_its_defaults_comes_back(tmp_path):
+    materials = tuple(Material(name=key, emission=cls()) for key, cls in TEXTURES.items())
+    mesh = Mesh(name="m", vertices=np.zeros((3, 0), np.float32), triangles=np.zeros((3, 0)))
+    scene = Scene(camera=None, objects=(Object(name="o", mesh=mesh, materials=materials),))
+    write_scene(tmp_path / "a", scene, Settings())
+    assert same(scene, read_scene(tmp_path / "a")[0])
+
+
+def test_a_texture_stands_only_where_it_may(tmp_path):
+    write_scene(tmp_path / "a", textured_scene(), Settings())
+
+    def misplaced(document):
+        material = next(r for r in document["shared"] if r["type"] == "Material")
+        material["ambient"] = material["emission"]
+
+    with pytest.raises(FileError, match="ambient"):
+        read_scene(edited(tmp_path / "a", tmp_path / "b", misplaced))
 
 
 def test_equal_scenes_give_equal_files(saved, tmp_path):

@@ -1,0 +1,92 @@
+"""What a ray stands for: a cone around it, as wide as the part of the film that its sample has for itself.
+
+Of N samples of a pixel each stands for one N-th of it, so cones are 1 / sqrt(N) as wide as a pixel: textures are averaged
+over their footprints without aliasing at any number of samples, and what blurs them more than the pixel's filter does
+vanishes as samples are added. Reflection and refraction leave the opening of a cone as it is.
+(Amanatides 1984, "Ray tracing with cones"; Akenine-Moller et al. 2021, "Improved Shader and Texture Level of Detail Using Ray
+Cones", JCGT 10(1).)
+"""
+
+import math
+
+import numpy as np
+
+from ..maths.vectors import cross, length
+from ..world.texturing import footprints
+
+
+def nothing_yet(plan, rays):
+    """A column (N,) of zeros."""
+    return np.zeros(rays.sample.shape, np.float32)
+
+
+CARRIED = (("width", nothing_yet), ("spread", nothing_yet))
+"""The width of a cone where its ray starts, and by how much it widens per distance.
+
+Rays that have landed also know their `extent`: the width there.
+"""
+
+
+def aim_cones(aim):
+    """The stage `aim` of a plan, after which rays carry cones: as wide as the distance to the neighbouring pixels' rays."""
+
+    def aimed(plan, rays, x, y):
+        o, d = plan.camera.rays(plan.camera_k, x, y)
+        right, below = plan.camera.rays(plan.camera_k, x + 1, y), plan.camera.rays(plan.camera_k, x, y + 1)
+        share = np.float32(1 / math.sqrt(plan.settings.samples))
+        # Twice the geometric mean would hold for the diagonal: the pixel's area is what the cone has to cover.
+        rays.carried.width, rays.carried.spread = (
+            share * np.sqrt(length(cross(across - middle, down - middle))) for middle, across, down in zip((o, d), right, below)
+        )
+        return aim(plan, rays, x, y)
+
+    return aimed
+
+
+def start_cones_in_range(plan, rays):
+    """Camera rays have started where the clip range does, and have widened up to there."""
+    k = plan.camera_k
+    rays.carried.width = rays.carried.width + rays.carried.spread * (k.clip_start * plan.camera.ray_per_depth(k, rays.d))
+
+
+def landing_with_cones(interact):
+    """The stage `interact` of a plan, after which rays know how wide their cones are where they have landed."""
+
+    def landed(plan, rays, hits):
+        rays.carried.extent = rays.carried.width + rays.carried.spread * np.where(hits.prim >= 0, hits.t, 0)
+        return interact(plan, rays, hits)
+
+    return landed
+
+
+def leave_with_cones(plan, rays, surface, scattered):
+    """Scattered rays start with cones as wide as those that have landed."""
+    scattered.carried.width = scattered.carried.extent
+    del scattered.carried.extent
+
+
+def footprints_of_cones(plan, carried, prim, wo, t=None):
+    """What the cones of rays cut out of triangles `prim` (N,), see `world.texturing.footprints`; t (N,) is how far away, None: landed."""
+    e1, e2 = plan.world.triangles.shape[3:9].take(prim, axis=1).reshape(2, 3, -1)
+    return footprints(e1, e2, wo, _width(carried, t))
+
+
+def footprints_at_time(plan, carried, prim, wo, t=None):
+    """The same where triangles may move."""
+    movers = plan.world.movers
+    e1, e2 = edges = plan.world.triangles.shape[3:9].take(prim, axis=1).reshape(2, 3, -1)
+    lanes = np.nonzero(prim >= movers.first)[0]
+    if lanes.size:
+        pose = movers.poses.at(movers.owner.take(prim.take(lanes) - movers.first), carried.time.take(lanes))
+        for e in edges:
+            e[:, lanes] = pose.vectors(e.take(lanes, axis=1))
+    return footprints(e1, e2, wo, _width(carried, t))
+
+
+def _width(carried, t):
+    return carried.extent if t is None else carried.width + carried.spread * t
+
+
+def no_footprints(plan, carried, prim, wo, t=None):
+    """Rays stand for nothing but themselves."""
+    return

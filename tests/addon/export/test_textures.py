@@ -1,0 +1,313 @@
+"""Texture nodes become the engine's textures; what they are looked up at arrives with the mesh."""
+
+import bpy
+import numpy as np
+import pytest
+
+from glanz.engine import CheckerTexture, GradientTexture, ImageTexture, Lambert, LinearTexture, NoiseTexture, Phong
+from glanz.tests.addon import blender
+
+PIXELS = np.random.default_rng(1).random((4, 6, 4)).astype(np.float32)
+
+
+def new_image(name="Picture", is_float=False, pixels=PIXELS, alpha=False, colour_space="sRGB"):
+    image = bpy.data.images.new(name, pixels.shape[1], pixels.shape[0], alpha=alpha, float_buffer=is_float)
+    if not is_float:
+        image.colorspace_settings.name = colour_space
+    pixels = pixels.copy()
+    if not alpha:
+        pixels[..., 3] = 1
+    image.pixels.foreach_set(pixels.ravel())
+    image.update()
+    return image
+
+
+def textured(kind, output="Color", shader="ShaderNodeBsdfDiffuse", socket="Color", **inputs):
+    """(material, tree, texture node) of a texture node that feeds a shader."""
+    material = blender.new_material("Mat", shader)
+    tree = material.node_tree
+    node = blender.add_node(tree, f"ShaderNodeTex{kind}", **inputs)
+    source = next(s for s in node.outputs if s.identifier == output)
+    target = next(n for n in tree.nodes if n.bl_idname == shader)
+    tree.links.new(source, blender.node_input(target, socket))
+    return material, tree, node
+
+
+def with_layers(ob, *names, active=0):
+    for name in names:
+        layer = ob.data.uv_layers.new(name=name)
+        layer.uv.foreach_set("vector", np.random.default_rng(len(name)).random(2 * len(ob.data.loops)).astype(np.float32))
+    ob.data.uv_layers[active].active_render = True
+    return ob
+
+
+def exported(material, ob=None):
+    """(object, warnings)."""
+    ob = ob or blender.add_plane()
+    ob.data.materials.append(material)
+    scene, warnings = blender.export()
+    return scene.objects[0], warnings
+
+
+def reflectance(material, ob=None):
+    o, warnings = exported(material, ob)
+    assert warnings == ()
+    (lobe,) = o.materials[0].lobes
+    assert type(lobe) is Lambert
+    return lobe.reflectance
+
+
+@pytest.mark.parametrize("space", ["sRGB", "Non-Color"])
+def test_bytes_arrive_as_they_are_encoded(space):
+    material, _, node = textured("Image")
+    node.image = new_image(colour_space=space)
+    texture = reflectance(material, with_layers(blender.add_plane(), "UVMap"))
+    assert type(texture) is ImageTexture
+    assert texture.bitmap.is_srgb == (space == "sRGB")
+    assert texture.bitmap.pixels.dtype == np.uint8
+    np.testing.assert_array_equal(texture.bitmap.pixels, np.round(PIXELS[..., :3] * 255).transpose(2, 0, 1))
+    assert (texture.extension, texture.is_smooth, texture.coordinates.attribute) == ("repeat", True, ("uv", ""))
+
+
+def test_floats_arrive_linear_and_what_is_brighter_than_1_is_cut_off_as_a_reflectance():
+    material, _, node = textured("Image")
+    node.image = new_image(is_float=True, pixels=2 * PIXELS)
+    o, warnings = exported(material)
+    assert warnings == ("Color of Diffuse BSDF has a texture brighter than 1 or below 0, which is cut off: material 'Mat'",)
+    texture = o.materials[0].lobes[0].reflectance
+    assert texture.is_clipped
+    np.testing.assert_array_equal(texture.textures[0].bitmap.pixels, 2 * PIXELS[..., :3].transpose(2, 0, 1))
+
+
+def test_alpha_weighs_bytes_unless_it_is_a_channel_of_its_own():
+    for mode, is_weighed in (("STRAIGHT", True), ("CHANNEL_PACKED", False), ("NONE", False)):
+        bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+        material, _, node = textured("Image")
+        node.image = new_image(alpha=True)
+        node.image.alpha_mode = mode
+        pixels = reflectance(material).bitmap.pixels.astype(int)
+        whole = np.round(PIXELS * 255).astype(int).transpose(2, 0, 1)
+        np.testing.assert_array_equal(pixels, whole[:3] * whole[3] // 255 if is_weighed else whole[:3])
+
+
+@pytest.mark.parametrize("with_name", [True, False])
+def test_a_missing_image_is_magenta_and_told_once(with_name):
+    material, tree, node = textured("Image")
+    if with_name:
+        node.image = bpy.data.images.new("Lost", 4, 4)
+        node.image.source = "FILE"
+        node.image.filepath = "/nowhere/lost.png"
+    again = tree.nodes.new("ShaderNodeTexImage")
+    again.image = node.image
+    mix = tree.nodes.new("ShaderNodeMixShader")
+    second = tree.nodes.new("ShaderNodeBsdfDiffuse")
+    tree.links.new(again.outputs["Color"], second.inputs["Color"])
+    first = next(n for n in tree.nodes if n.type == "BSDF_DIFFUSE" and n != second)
+    tree.links.new(first.outputs[0], mix.inputs[1])
+    tree.links.new(second.outputs[0], mix.inputs[2])
+    tree.links.new(mix.outputs[0], tree.get_output_node("CYCLES").inputs["Surface"])
+    o, warnings = exported(material)
+    assert len(warnings) == 1
+    assert "magenta" in warnings[0]
+    assert ("'Lost'" in warnings[0]) == with_name
+    (lobe,) = o.materials[0].lobes
+    assert lobe.reflectance.average() == (1, 0, 1)
+
+
+def test_an_image_is_loaded_once_for_all_materials():
+    image = new_image()
+    bitmaps = []
+    for _ in range(2):
+        material, _, node = textured("Image")
+        node.image = image
+        bitmaps.append(material)
+        blender.add_plane().data.materials.append(material)
+    scene, _ = blender.export()
+    first, second = (o.materials[0].lobes[0].reflectance.bitmap for o in scene.objects)
+    assert first is second
+
+
+@pytest.mark.parametrize(
+    ("attribute", "value", "expected"),
+    [
+        ("extension", "CLIP", {"extension": "clip"}),
+        ("extension", "MIRROR", {"extension": "mirror"}),
+        ("extension", "EXTEND", {"extension": "extend"}),
+        ("interpolation", "Closest", {"is_smooth": False}),
+    ],
+)
+def test_extension_and_interpolation(attribute, value, expected):
+    material, _, node = textured("Image")
+    node.image = new_image()
+    setattr(node, attribute, value)
+    texture = reflectance(material)
+    assert {name: getattr(texture, name) for name in expected} == expected
+
+
+@pytest.mark.parametrize(
+    ("attribute", "value", "word"),
+    [
+        ("interpolation", "Cubic", "Cubic interpolation"),
+        ("projection", "BOX", "Box projection"),
+        ("projection", "SPHERE", "Sphere projection"),
+    ],
+)
+def test_what_is_left_out_of_images_is_named(attribute, value, word):
+    material, _, node = textured("Image")
+    node.image = new_image()
+    setattr(node, attribute, value)
+    _, (warning,) = exported(material)
+    assert word in warning
+
+
+def test_a_checker_takes_its_colours_and_scale():
+    material, _, _ = textured("Checker", Color1=(0.1, 0.2, 0.3, 1), Color2=(0.4, 0.5, 0.6, 1), Scale=7)
+    texture = reflectance(material)
+    assert type(texture) is CheckerTexture
+    assert texture.odd == pytest.approx((0.1, 0.2, 0.3))
+    assert texture.even == pytest.approx((0.4, 0.5, 0.6))
+    np.testing.assert_array_equal(texture.coordinates.matrix, np.diag((7, 7, 7, 1)))
+    assert texture.coordinates.attribute == ("generated", "")
+
+
+def test_the_factor_of_a_checker_is_black_and_white():
+    texture = reflectance(textured("Checker", "Fac")[0])
+    assert (texture.odd, texture.even) == ((1, 1, 1), (0, 0, 0))
+
+
+def test_noise_takes_its_numbers():
+    numbers = {"Detail": 3.5, "Roughness": 0.75, "Lacunarity": 2.5, "Distortion": 0.25}
+    texture = reflectance(textured("Noise", Scale=3, **numbers)[0])
+    assert texture == NoiseTexture(texture.coordinates, *numbers.values(), True, True)
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    material, _, node = textured("Noise", "Fac")
+    node.noise_type, node.noise_dimensions = "RIDGED_MULTIFRACTAL", "4D"
+    _, warnings = exported(material)
+    assert len(warnings) == 2
+    assert any("RIDGED_MULTIFRACTAL" in warning for warning in warnings)
+
+
+@pytest.mark.parametrize("shape", ["LINEAR", "QUADRATIC", "EASING", "DIAGONAL", "SPHERICAL", "QUADRATIC_SPHERE", "RADIAL"])
+def test_gradients(shape):
+    material, _, node = textured("Gradient")
+    node.gradient_type = shape
+    texture = reflectance(material)
+    assert type(texture) is GradientTexture
+    texture.check("Mat")
+    assert texture.shape == shape.lower().replace("_", " ")
+
+
+def mapped(tree, node, source="Object", **values):
+    """A Texture Coordinate and a Mapping node before `node`."""
+    coordinates, mapping = tree.nodes.new("ShaderNodeTexCoord"), tree.nodes.new("ShaderNodeMapping")
+    mapping.vector_type = values.pop("vector_type", "POINT")
+    for name, value in values.items():
+        blender.node_input(mapping, name).default_value = value
+    tree.links.new(next(s for s in coordinates.outputs if s.identifier == source), mapping.inputs["Vector"])
+    tree.links.new(mapping.outputs[0], node.inputs["Vector"])
+    return coordinates, mapping
+
+
+@pytest.mark.parametrize("vector_type", ["POINT", "TEXTURE", "VECTOR"])
+def test_mappings_are_affine(vector_type):
+    """A point mapped as Blender's manual has it: scaled, rotated about x, y, z, moved; or the other way round."""
+    from mathutils import Euler, Vector
+
+    location, rotation, scale = (0.3, -0.2, 0.5), (0.4, 0.2, -0.7), (2.0, 3.0, 0.5)
+    material, tree, node = textured("Checker", Scale=2)
+    mapped(tree, node, vector_type=vector_type, Location=location, Rotation=rotation, Scale=scale)
+    coordinates = reflectance(material).coordinates
+    assert coordinates.attribute == ("object", "")
+    p = Vector((0.7, -1.1, 0.9))
+    if vector_type == "TEXTURE":
+        q = Vector(a / s for a, s in zip(Euler(rotation).to_matrix().inverted() @ (p - Vector(location)), scale))
+    else:
+        q = Euler(rotation).to_matrix() @ Vector(a * s for a, s in zip(p, scale))
+        q += Vector(location) if vector_type == "POINT" else Vector()
+    np.testing.assert_allclose(np.array(coordinates.matrix) @ (*p, 1), (*(2 * q), 1), atol=1e-5)
+
+
+def test_two_mappings_follow_each_other():
+    material, tree, node = textured("Checker", Scale=1)
+    _, near = mapped(tree, node, Location=(1, 0, 0))
+    far = tree.nodes.new("ShaderNodeMapping")
+    blender.node_input(far, "Scale").default_value = (2, 2, 2)
+    tree.links.new(near.inputs["Vector"].links[0].from_socket, far.inputs["Vector"])
+    tree.links.new(far.outputs[0], near.inputs["Vector"])
+    matrix = reflectance(material).coordinates.matrix
+    assert tuple(np.array(matrix) @ (1, 1, 1, 1)) == pytest.approx((3, 2, 2, 1))
+
+
+def test_coordinates_that_are_not_supported_are_named():
+    material, tree, node = textured("Checker")
+    mapped(tree, node, source="Window")
+    o, (warning,) = exported(material)
+    assert "Window" in warning
+    assert o.materials[0].lobes[0].reflectance.coordinates.source == "generated"
+
+
+def test_layers_of_coordinates_come_as_they_are_asked_for():
+    """The layer for rendering first; a named one by its name; none where nothing asks; a missing one is told."""
+    material, tree, node = textured("Image")
+    node.image = new_image()
+    uv_map = tree.nodes.new("ShaderNodeUVMap")
+    ob = with_layers(blender.add_plane(), "one", "three", "fourth", active=1)
+    o, _ = exported(material, ob)
+    assert o.mesh.uv_layers == ("three",)
+    expected = np.array([layer.vector for layer in ob.data.uv_layers["three"].uv]).T
+    np.testing.assert_array_equal(o.mesh.uvs[0], expected)
+    loops = np.array([t.loops for t in ob.data.loop_triangles]).T
+    np.testing.assert_array_equal(o.mesh.uv_indices, loops)
+    tree.links.new(uv_map.outputs[0], node.inputs["Vector"])
+    for name, layers in (("one", ("one",)), ("", ("three",)), ("five", ())):
+        uv_map.uv_map = name
+        scene, warnings = blender.export()
+        assert scene.objects[0].mesh.uv_layers == layers
+        assert bool(warnings) == (name == "five")
+    ob.data.materials.clear()
+    assert blender.export()[0].objects[0].mesh.uv_layers == ()
+
+
+def test_the_base_colour_of_principled_may_be_a_texture():
+    """Diffuse and glossy share the texture, and together reflect at most 1."""
+    material, _, _ = textured("Checker", shader="ShaderNodeBsdfPrincipled", socket="Base Color")
+    principled = next(n for n in material.node_tree.nodes if n.type == "BSDF_PRINCIPLED")
+    blender.node_input(principled, "Metallic").default_value = 0.25
+    o, warnings = exported(material)
+    assert warnings == ()
+    lobes = {type(lobe): lobe for lobe in o.materials[0].lobes}
+    assert set(lobes) == {Lambert, Phong}
+    diffuse, glossy = (lobes[kind].reflectance for kind in (Lambert, Phong))
+    assert type(diffuse) is type(glossy) is LinearTexture
+    assert diffuse.textures[0] is glossy.textures[0]
+    assert max(np.add(diffuse.bounds()[1], glossy.bounds()[1])) <= 1 + 1e-9
+    assert glossy.factors[0] == pytest.approx((0.25,) * 3)
+
+
+def test_emission_may_be_a_texture_and_is_scaled_by_its_strength():
+    material, tree, _ = textured("Checker", "Fac", shader="ShaderNodeEmission")
+    blender.node_input(next(n for n in tree.nodes if n.type == "EMISSION"), "Strength").default_value = 5
+    o, warnings = exported(material)
+    assert warnings == ()
+    assert o.materials[0].emission.bounds() == ((0, 0, 0), (5, 5, 5))
+
+
+def test_a_mix_scales_textures():
+    material, tree, _ = textured("Checker", "Fac")
+    mix = blender.add_node(tree, "ShaderNodeMixShader", Fac=0.25)
+    tree.links.new(next(n for n in tree.nodes if n.type == "BSDF_DIFFUSE").outputs[0], mix.inputs[1])
+    tree.links.new(tree.nodes.new("ShaderNodeBsdfDiffuse").outputs[0], mix.inputs[2])
+    tree.links.new(mix.outputs[0], tree.get_output_node("CYCLES").inputs["Surface"])
+    texture = reflectance(material)
+    assert texture.bounds()[0] == pytest.approx((0.2,) * 3)
+    assert texture.bounds()[1] == pytest.approx((0.95,) * 3)
+
+
+def test_worlds_and_lights_do_not_read_textures():
+    world = blender.set_world((0.1, 0.2, 0.3))
+    tree = world.node_tree
+    background = next(n for n in tree.nodes if n.type == "BACKGROUND")
+    tree.links.new(tree.nodes.new("ShaderNodeTexNoise").outputs["Color"], background.inputs["Color"])
+    scene, warnings = blender.export()
+    assert scene.world.radiance == pytest.approx((0.1, 0.2, 0.3))
+    assert len(warnings) == 1
