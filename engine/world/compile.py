@@ -118,6 +118,7 @@ def compile_world(
     owner = _concatenate([part.owner for part in parts], 0).astype(np.intp)
     bodies = Bodies.of(scene.objects) if has_media else None
     if has_media:
+        # What moves stays as it is: it touches nothing for long.
         is_still = np.arange(owner.size) < sum(part.owner.size for part in still)
         vertices = moved_apart(vertices, indices, owner, bodies.layer.take(owner) * is_still)
     corners, double_area, normal, usable = _measure(vertices, indices)
