@@ -93,6 +93,19 @@ def test_a_slab_shifts_light_to_the_side(scale):
     assert np.linalg.norm(np.cross(p, d)) / plan.world.frame.scale / scale == pytest.approx(0.329142308, abs=1e-5)
 
 
+def test_the_shift_catches_a_wrong_index(monkeypatch):
+    monkeypatch.setitem(globals(), "OPEN", dataclasses.replace(OPEN, ior=1.5002))
+    with pytest.raises(AssertionError):
+        test_a_slab_shifts_light_to_the_side(1)
+
+
+def test_the_turns_catch_a_spectrum_the_wrong_way_round(monkeypatch):
+    """Anomalous: red bent most."""
+    monkeypatch.setattr(dispersion, "place", lambda wavelength: -place(wavelength))
+    with pytest.raises(AssertionError):
+        test_every_wavelength_has_its_own_turn()
+
+
 def test_every_wavelength_has_its_own_turn():
     """D15, through the mesh: one wavelength for each path, and the prism's formula for its index; to 2e-6 rad."""
     incidence = 1.0

@@ -21,6 +21,7 @@ from glanz.engine import (
 from glanz.engine.constants import EPS32
 from glanz.engine.wavefront import continuation, media
 from glanz.engine.world.interaction import START_ULPS
+from glanz.engine.world.media import Media
 from glanz.engine.world.touching import moved_apart
 from glanz.tests import helpers as h
 
@@ -71,9 +72,31 @@ def test_absorption_follows_beers_law(absorption, expected):
 
 
 def test_absorption_catches_metres_taken_for_render_space(monkeypatch):
-    monkeypatch.setattr(media, "transmitted", lambda plan, inside, t: 0.5 + 0 * t)
+    of = Media.of
+    monkeypatch.setattr(Media, "of", lambda bodies, row, material, owner, scale: of(bodies, row, material, owner, 1.0))
     with pytest.raises(AssertionError):
         test_absorption_follows_beers_law(1.0, 0.367879441)
+
+
+def test_absorption_catches_nothing_times_infinity(monkeypatch):
+    """D13: the plain formula makes NaN of it, which counts as black."""
+    plain = lambda plan, inside, t: np.exp(-plan.world.media.absorption.take(media.strongest(inside), axis=1) * t)  # noqa: E731
+    monkeypatch.setattr(media, "transmitted", plain)
+    with pytest.raises(AssertionError):
+        test_colours_that_are_not_absorbed_come_from_infinitely_far()
+
+
+def test_colours_that_are_not_absorbed_come_from_infinitely_far():
+    """A body without a bottom that absorbs red alone: the world behind it is seen in green and blue."""
+    surface = h.thing(h.quad((0, 0, 1), (90, 0, 0), (0, 90, 0)), body(0, 1, (1.0, 0.0, 0.0)).materials[0])
+    assert seen([surface], world=1.0) == pytest.approx((0, 1, 1))
+
+
+def test_the_round_trips_catch_two_hundredths_less_absorption(monkeypatch):
+    """D10, without chance."""
+    monkeypatch.setattr(media, "transmitted", lambda plan, inside, t: np.full((3, t.size), 0.51, np.float32))
+    with pytest.raises(AssertionError):
+        test_whitted_adds_the_round_trips_in_a_slab_up_one_by_one(12, 6)
 
 
 @pytest.mark.parametrize("scale", [1e-6, 1e6])
@@ -338,6 +361,12 @@ def test_a_thin_pane_is_two_boundaries():
             count = lambda plan, rays, surface, scattered, passed=passed: passed.append(rays.slot)  # noqa: E731
             h.pixels_of_plan(dataclasses.replace(plan, on_leaving=(*plan.on_leaving, count)))
             assert np.bincount(np.concatenate(passed)).tolist() == [2 + len(more)] * 64
+
+
+def test_two_boundaries_catch_rays_that_start_too_far_off(monkeypatch):
+    monkeypatch.setattr("glanz.engine.world.interaction.START_ULPS", 100)
+    with pytest.raises(AssertionError):
+        test_a_thin_pane_is_two_boundaries()
 
 
 def test_a_part_in_another_glass_closes_the_same_body():

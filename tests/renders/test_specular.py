@@ -78,6 +78,17 @@ def test_a_slab_at_45_degrees_passes_the_mean_of_both_polarisations():
     assert h.mean_is(image.reshape(-1), 0.904326791, floor=1e-6)
 
 
+def test_slabs_catch_a_fresnel_that_is_a_tenth_off(monkeypatch):
+    """D9, D11: by Schlick's approximation, at 45 degrees, and by 1 % less of the refracted light straight on."""
+    r0 = 0.04
+    monkeypatch.setattr(dielectric, "fresnel_dielectric", lambda cos_i, eta: np.float32(r0) + np.float32(1 - r0) * (1 - cos_i) ** 5)
+    with pytest.raises(AssertionError):
+        test_a_slab_at_45_degrees_passes_the_mean_of_both_polarisations()
+    monkeypatch.setattr(dielectric, "fresnel_dielectric", lambda cos_i, eta: np.full_like(cos_i, 0.05))
+    with pytest.raises(AssertionError):
+        test_a_slab_of_glass_passes_what_its_round_trips_add_up_to(50, 12 / 13)
+
+
 def test_light_reflected_a_thousand_times_between_mirrors_is_the_power_of_the_reflectance(monkeypatch):
     """F5: .999^1000 = .367695 of what glows at the end, to the rounding of 1,000 float32 products."""
     monkeypatch.setattr(continuation, "ROULETTE_DEPTH", 10**6)

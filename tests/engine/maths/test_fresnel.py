@@ -8,6 +8,8 @@ from glanz.engine.maths.fresnel import fresnel_dielectric, refract, refracted_co
 from glanz.tests import helpers as h
 
 Z = np.array([[0.0], [0.0], [1.0]])
+EXACT, BENT = fresnel_dielectric, refract
+"""What the mutants below are made of."""
 
 
 def share(degrees, eta):
@@ -84,3 +86,53 @@ def test_hemispherical_averages():
 def test_the_laws_catch_an_index_upside_down():
     with pytest.raises(AssertionError):
         assert share(45, 1 / 1.5) == pytest.approx(0.050239911, abs=1e-9)
+
+
+def schlick(cos_i, eta):
+    """Schlick's approximation, which many renderers use."""
+    r0 = ((eta - 1) / (eta + 1)) ** 2
+    return r0 + (1 - r0) * (1 - cos_i) ** 5
+
+
+def across_only(cos_i, eta):
+    """Light of one polarisation."""
+    cos_t = refracted_cosine(cos_i, eta)
+    return ((cos_i - eta * cos_t) / (cos_i + eta * cos_t)) ** 2
+
+
+def single(cos_i, eta):
+    """In float32, where 1 - R has no digits left along the surface."""
+    return EXACT(cos_i.astype(np.float32), eta.astype(np.float32))
+
+
+@pytest.mark.parametrize(
+    ("mutant", "law", "values"),
+    [
+        (schlick, "test_fresnel", (45, 1.5, 0.050239911)),
+        (across_only, "test_fresnel", (45, 1.5, 0.050239911)),
+        (schlick, "test_brewster", ()),
+        (schlick, "test_the_critical_angle_is_approached_without_loss_of_digits", (1e-3, 0.763641188)),
+        (single, "test_the_critical_angle_is_approached_without_loss_of_digits", (1e-7, 0.997255167)),
+        (schlick, "test_grazing", ()),
+        (single, "test_grazing", ()),
+        (lambda cos_i, eta: np.maximum(EXACT(cos_i, eta), 1e-6), "test_equal_media_have_no_boundary", (1.0,)),
+        (schlick, "test_both_sides_reflect_alike", ()),
+        (schlick, "test_hemispherical_averages", ()),
+    ],
+)
+def test_the_laws_catch_other_shares(monkeypatch, mutant, law, values):
+    """D2 to D8: each notices a formula that is only nearly Fresnel's."""
+    check = globals()[law]
+    check(*values)
+    monkeypatch.setitem(globals(), "fresnel_dielectric", mutant)
+    with pytest.raises(AssertionError):
+        check(*values)
+
+
+def test_snell_catches_a_direction_that_is_not_bent_enough(monkeypatch):
+    """D1: an index that is off by a millionth; and a vector that is not unit."""
+    for mutant in (lambda wo, n, eta: BENT(wo, n, eta * (1 + 1e-6)), lambda wo, n, eta: BENT(wo, n, eta) * (1 + 1e-14)):
+        monkeypatch.setitem(globals(), "refract", mutant)
+        with pytest.raises(AssertionError):
+            test_snell(45, 28.125505702055030)
+        monkeypatch.undo()
