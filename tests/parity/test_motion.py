@@ -13,7 +13,7 @@ from mathutils import Euler
 
 from glanz.tests.addon import blender
 from glanz.tests.addon.export.test_motion import animate
-from glanz.tests.parity import parity
+from glanz.tests.parity import parity, test_transport, welch
 
 SIDE, BLOCKS, SAMPLES = 64, 8, 512
 MOST = 0.01
@@ -131,3 +131,28 @@ def test_moving_things_give_and_take_light_as_in_cycles(tmp_path):
     bpy.context.scene.render.use_motion_blur = False
     assert parity.difference(parity.pixels("GLANZ", tmp_path), cycles, BLOCKS) > 3 * MOST
     assert np.isfinite(glanz).all()
+
+
+def life(moves):
+    """The still life of `test_transport` under its glowing ball; `moves` says what else than the light moves."""
+    test_transport.still_life(test_transport.glowing_ball)
+    blender.set_world((0.15, 0.2, 0.25))
+    open_shutter()
+    if moves == "camera":
+        keyed(bpy.context.scene.camera, "location", (-0.6, -7, 3), (0.6, -7.4, 3.2))
+    else:
+        keyed(bpy.data.objects["Cube"], "rotation_euler", Euler((0, 0, -0.6)), Euler((0.3, 0, 1.6)))
+        keyed(bpy.data.objects["Sphere"], "location", (-1.5, -0.3, 0.8), (-0.7, 0.3, 1.1))
+        keyed(bpy.data.objects["Icosphere"], "location", (0.6, -1.4, 3.0), (1.8, -0.4, 3.4))
+    bpy.context.scene.frame_set(FRAME)
+
+
+@pytest.mark.parametrize("moves", ["camera", "things"])
+def test_life_in_motion_is_that_of_cycles_tile_by_tile(moves, tmp_path):
+    """Mirrors, glass, dull things and a lamp: Welch's test on tiles, and blocks within 1 %. A still picture is noticed."""
+    life(moves)
+    ours, theirs = (welch.replicates(engine, tmp_path, test_transport.REPLICATES) for engine in ("GLANZ", "CYCLES"))
+    assert parity.difference(ours.mean(axis=0), theirs.mean(axis=0)) <= MOST
+    assert welch.agree(ours, theirs)
+    bpy.context.scene.render.use_motion_blur = False
+    assert not welch.agree(welch.replicates("GLANZ", tmp_path, 3), theirs)
