@@ -197,5 +197,7 @@ def _sum(constants, row, terms):
     result = np.zeros(()) if first is None else first.take(row, axis=1)
     for constant, term in zip(others, terms[1:]):
         if constant is not None:
-            result = result + constant.take(row, axis=1) * term
+            part = constant.take(row, axis=1) * term
+            part += result
+            result = part
     return result
