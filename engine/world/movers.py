@@ -19,6 +19,8 @@ from .poses import Path, Poses, is_constant
 
 _SLACK = 16 * EPS32
 """Of the squared distance between a ray's origin and an object: what the rounding of the ray's direction does to it."""
+_MOST_IN_LEAF = 8
+"""So many objects are looked at one by one; more are looked for in halves."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -47,7 +49,9 @@ class Moving:
         deforms = o.mesh.deforms or (is_stretched and not ((sides > 0).all() or (sides < 0).all()))
         count = steps if deforms else 1
         vertices = o.mesh.vertices.astype(np.float64)
-        anchor = 0.5 * (vertices.min(axis=1) + vertices.max(axis=1))
+        # Vertices that are nowhere cost their triangles, not all the others.
+        somewhere = vertices[:, np.isfinite(vertices).all(axis=0)]
+        anchor = 0.5 * (somewhere.min(axis=1) + somewhere.max(axis=1)) if somewhere.size else np.zeros(3)
         parts = []
         for time in (np.arange(count) + 0.5) / count:
             matrix = np.eye(4)
@@ -68,6 +72,7 @@ class Movers:
     poses  where they are, see `Poses`
     reach  (O,) how far their triangles are from the origins of their paths at most
     trees  for each object, for each of its steps: (Accel, the number of its first triangle)
+    bounds a tree of `Node`s around all of them
     """
 
     first: int
@@ -75,6 +80,7 @@ class Movers:
     poses: Poses
     reach: np.ndarray
     trees: tuple
+    bounds: object
 
     @classmethod
     def of(cls, moving, frame, vertices, triangles, first):
@@ -88,7 +94,8 @@ class Movers:
                 corners, indices = next(parts)
                 steps.append((Accel(corners, indices), start))
                 start += indices.shape[1]
-                farthest = max(farthest, length(corners.astype(np.float64)).max(initial=0))
+                # Of what is met only: other corners may be anywhere.
+                farthest = max(farthest, length(corners.take(indices.ravel(), axis=1).astype(np.float64)).max(initial=0))
             path = Path.of(m.keys, m.local, m.anchor, frame)
             # Between keys no stretch and no pivot is larger than at one of them.
             gain = np.linalg.norm(np.moveaxis(path.stretch, -1, 0), 2, axis=(1, 2)).max()
@@ -96,7 +103,12 @@ class Movers:
             owner.append(np.full(start - steps[0][1], number))
             trees.append(tuple(steps))
             paths.append(path)
-        return cls(first, np.concatenate(owner), Poses.of(paths), np.array(reach), tuple(trees))
+        reach = np.array(reach)
+        sides = [(path.place.min(axis=1), path.place.max(axis=1)) for path in paths]
+        centres = np.stack([0.5 * (low + high) for low, high in sides], axis=1)
+        swept = reach + np.array([0.5 * np.linalg.norm(high - low) for low, high in sides])
+        bounds = Node.around(centres, swept, np.arange(len(paths)))
+        return cls(first, np.concatenate(owner), Poses.of(paths), reach, tuple(trees), bounds)
 
     def meet(self, hits, o, d, time):
         """`hits` of rays o, d (3, N) at `time` (N,), changed where a moving triangle is nearer."""
@@ -118,11 +130,8 @@ class Movers:
 
     def _near(self, o, d, time, limit):
         """Each tree with the lanes of the rays that may meet it, and those rays in its frame."""
-        for number, steps in enumerate(self.trees):
-            lanes = self._passing(number, o, d, time, limit)
-            if not lanes.size:
-                continue
-            when = time.take(lanes)
+        for number, lanes in self._passing(self.bounds, None, o, d, time, limit):
+            steps, when = self.trees[number], time.take(lanes)
             pose = self.poses.at(number, when)
             near_o = pose.local_points(o.take(lanes, axis=1)).astype(np.float32)
             near_d = pose.local_vectors(d.take(lanes, axis=1)).astype(np.float32)
@@ -135,12 +144,57 @@ class Movers:
                 if part.size:
                     yield *tree, lanes.take(part), near_o.take(part, axis=1), near_d.take(part, axis=1)
 
-    def _passing(self, number, o, d, time, limit):
-        """The lanes of the rays that come near object `number`: within its reach of where it is at their time."""
-        away = self.poses.centres(number, time) - o
-        along = dot(away, d)
-        distance2 = dot(away, away)
-        reach = self.reach[number]
-        passes = distance2 * (1 - _SLACK) - along * along <= reach * reach
-        passes &= (along >= 0) | (distance2 * (1 - _SLACK) <= reach * reach)
-        return np.nonzero(passes & (along * (1 - _SLACK) - reach <= limit))[0]
+    def _passing(self, node, lanes, o, d, time, limit):
+        """Each object of a node of `bounds` with the lanes of the rays that come within its reach of where it is at their time.
+
+        o, d, time are those of the rays `lanes` (None: all); `limit` is that of all, as it is when it is asked for.
+        """
+        for number in node.objects:
+            found = _passes(self.poses.centres(number, time) - o, d, self.reach[number], _picked(limit, lanes))
+            if found.size:
+                yield number, found if lanes is None else lanes.take(found)
+        for child in node.children:
+            found = _passes(child.centre - o, d, child.radius, _picked(limit, lanes))
+            if found.size:
+                inner = found if lanes is None else lanes.take(found)
+                yield from self._passing(child, inner, o.take(found, axis=1), d.take(found, axis=1), time.take(found), limit)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Node:
+    """A sphere around everything that some objects sweep while the shutter is open: some itself, others by its children.
+
+    centre (3, 1), radius; objects, a tuple of numbers; children, a tuple of nodes
+    """
+
+    centre: np.ndarray
+    radius: float
+    objects: tuple
+    children: tuple
+
+    @classmethod
+    def around(cls, centres, radii, numbers):
+        """A tree around the spheres `centres` (3, O), `radii` (O,) of the objects `numbers` (M,), split where they lie farthest apart."""
+        own, sizes = centres[:, numbers], radii[numbers]
+        low, high = (own - sizes).min(axis=1), (own + sizes).max(axis=1)
+        centre = 0.5 * (low + high)[:, None]
+        objects, children = tuple(numbers), ()
+        if numbers.size > _MOST_IN_LEAF:
+            order = numbers[np.argsort(own[np.argmax(high - low)], kind="stable")]
+            objects, children = (), tuple(cls.around(centres, radii, half) for half in np.array_split(order, 2))
+        return cls(centre, float((length(own - centre) + sizes).max() * (1 + _SLACK)), objects, children)
+
+
+def _passes(away, d, radius, limit):
+    """The lanes of rays along d (3, N) that come within `radius` of what is `away` (3, N) from their origins, before their limit."""
+    along = dot(away, d)
+    distance2 = dot(away, away)
+    distance2 *= 1 - _SLACK
+    passes = distance2 - along * along <= radius * radius
+    passes &= (along >= 0) | (distance2 <= radius * radius)
+    passes &= along * (1 - _SLACK) - radius <= limit
+    return np.nonzero(passes)[0]
+
+
+def _picked(limit, lanes):
+    return limit if lanes is None else limit.take(lanes)

@@ -7,8 +7,8 @@ from glanz.engine.arrays import Columns
 from glanz.engine.maths.poses import Keys
 from glanz.engine.wavefront import motion
 from glanz.engine.wavefront.records import Rays
+from glanz.engine.world import movers as module
 from glanz.engine.world.accel import Accel, Hits
-from glanz.engine.world.movers import Movers
 from glanz.tests import helpers as h
 
 DISTANCES = (1e-6, 1e-3, 0.3, 1.0, 30.0, 1e3, 1e6)
@@ -158,5 +158,39 @@ def test_rays_that_pass_far_from_a_moving_object_never_reach_its_tree(monkeypatc
     met = np.count_nonzero(hits.prim >= 0)
     assert 0 < met <= asked <= 2 * met
     # And none that meets it is left out.
-    monkeypatch.setattr(Movers, "_passing", lambda self, number, o, d, time, limit: np.arange(time.size))
+    monkeypatch.setattr(module, "_passes", lambda away, d, radius, limit: np.arange(d.shape[1]))
     assert h.same_bits(plan.closest(plan, Columns(time=time), np.zeros_like(d), d).prim, hits.prim)
+
+
+def swarm(count, seed=3):
+    """Small boxes that fly about, all over the place."""
+    places = np.random.default_rng(seed).uniform(-2, 2, (count, 2, 3))
+    box = h.thing(h.box((-0.2, -0.2, -0.2), (0.2, 0.2, 0.2)))
+    keys = [[h.affine(h.rotation(2 * i + j), place) for j, place in enumerate(pair)] for i, pair in enumerate(places)]
+    return [h.replaced(box, motion=np.stack(pair)) for pair in keys]
+
+
+def test_many_objects_are_found_as_if_each_were_asked_for(monkeypatch):
+    """A tree of spheres around 60 leaves out most of them for most rays, and none that is met."""
+    plan = h.plan_of(h.scene(swarm(60)), h.settings())
+    n = 4_000
+    d, time = h.directions(1, n, np.float32), np.random.default_rng(2).random(n, np.float32)
+    o = np.repeat(plan.world.frame.points(np.zeros((3, 1))), n, axis=1).astype(np.float32)
+    carried, limit = Columns(time=time), np.full(n, 0.2, np.float32)
+    found, blocked = plan.closest(plan, carried, o, d), plan.occluded(plan, carried, o, d, limit)
+    monkeypatch.setattr(module, "_passes", lambda away, d, radius, limit: np.arange(d.shape[1]))
+    assert h.same_bits(plan.closest(plan, carried, o, d).prim, found.prim)
+    assert h.same_bits(plan.occluded(plan, carried, o, d, limit), blocked)
+    assert 0.1 < blocked.mean() < (found.prim >= 0).mean() < 0.9
+
+
+def test_a_vertex_that_is_nowhere_hides_nothing():
+    """A mesh with a vertex that is not finite loses the triangle that uses it, and no other."""
+    mesh = h.icosphere(1)
+    vertices = mesh.vertices.astype(np.float64)
+    vertices[:, 0] = np.nan
+    ball = h.replaced(h.thing(h.replaced(mesh, vertices=vertices)), motion=SPIN)
+    plan = h.plan_of(h.scene([ball]), h.settings())
+    assert plan.world.warnings
+    hits = plan.closest(plan, Columns(time=np.zeros(500, np.float32)), np.zeros((3, 500), np.float32), h.directions(1, 500, np.float32))
+    assert (hits.prim >= 0).any()
