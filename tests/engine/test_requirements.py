@@ -10,6 +10,7 @@ from glanz.engine import (
     Dielectric,
     EnvironmentMap,
     Lambert,
+    LambertTransmission,
     Lens,
     Material,
     Medium,
@@ -17,6 +18,7 @@ from glanz.engine import (
     PanoramaCamera,
     PerspectiveCamera,
     Phong,
+    PhongTransmission,
     PointLight,
     Requirements,
     SunLight,
@@ -44,6 +46,7 @@ BLACK_LOBE = h.thing(h.box(), Material(name="m", lobes=(Lambert((0.0, 0.0, 0.0))
 GLASS = Material(name="glass", lobes=(Dielectric(1.5),))
 WINE = Material(name="wine", lobes=(Dielectric(1.3),), medium=Medium(absorption=(0.1, 2.0, 3.0)))
 FLINT = Material(name="flint", lobes=(Dielectric(1.7, abbe=25.0),))
+LEAF = Material(name="leaf", lobes=(Lambert((0.3,) * 3), LambertTransmission((0.2,) * 3), PhongTransmission((0.4,) * 3, 9.0)))
 STRONG = Material(name="strong", lobes=(Dielectric(1.7),), medium=Medium(priority=3))
 LEFT, RIGHT = (h.box((x, -0.5, 0), (x + 0.9, 0.5, 1), name=name) for x, name in ((-1, "left"), (0, "right")))
 INNER = h.box((-0.9, -0.4, 0.1), (-0.2, 0.3, 0.8), name="inner")
@@ -184,6 +187,7 @@ SCENES = {
     "prism": h.scene([h.thing(LEFT, FLINT), FLOOR], [BULB], world=0.5),
     "prism around glass": h.scene([h.thing(LEFT, FLINT), h.thing(INNER, STRONG), FLOOR], [BULB], world=0.5),
     "glass in glass": h.scene([h.thing(LEFT, GLASS), h.thing(INNER, STRONG), FLOOR], [BULB], world=0.5),
+    "leaf": h.scene([h.thing(LEFT, LEAF), FLOOR], [BULB, AreaLight(world_from_light=h.affine(translation=(0, 0, 3)))], world=0.5),
     "seen, not lit": h.scene([MATTE, FLOOR]),
     "veil": h.scene([MATTE, FLOOR, CURTAIN], [BULB]),
     "everything": scenes.everything(),

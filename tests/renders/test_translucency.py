@@ -33,6 +33,7 @@ LEAF = Material(name="leaf", lobes=(Lambert((0.4,) * 3), LambertTransmission((0.
 SATIN = Material(name="satin", lobes=(Phong((0.3,) * 3, 20.0), PhongTransmission((0.4,) * 3, 5.0), LambertTransmission((0.3,) * 3)))
 BEHIND = PointLight(position=(1.0, 2.0, -2.0), intensity=(3.0, 2.0, 1.0))
 IN_FRONT = PointLight(position=(1.0, 2.0, 2.0), intensity=(3.0, 2.0, 1.0))
+LAMP = h.thing(h.quad((0.5, 0.5, -0.5), (2, 0, 0), (0, 2, 0), name="lamp"), h.lambert(0, "lamp", 2.0))
 RECEIVED = np.array((3.0, 2.0, 1.0)) / 9 * 2 / 3
 """Irradiance of the sheet at the origin, on the side of the lamp: I cos / d^2."""
 
@@ -116,8 +117,7 @@ def test_every_way_finds_the_light_behind(monkeypatch, material, name):
 @pytest.mark.parametrize("material", [LEAF, SATIN], ids=lambda m: m.name)
 def test_every_integrator_sees_the_same_through_a_sheet(integrator, material):
     """A closed translucent box in a bright world, a lamp below it; up to 3 bounces. Detects 2 %."""
-    lamp = h.thing(h.quad((0.5, 0.5, -0.5), (2, 0, 0), (0, 2, 0), name="lamp"), h.lambert(0, "lamp", 2.0))
-    scene = h.scene([h.thing(h.box(), material), lamp], camera=PerspectiveCamera.look_at((2, -2, 1), (0.5, 0.5, 0.5)), world=0.3)
+    scene = h.scene([h.thing(h.box(), material), LAMP], camera=PerspectiveCamera.look_at((2, -2, 1), (0.5, 0.5, 0.5)), world=0.3)
     settings = h.settings(width=12, height=12, max_depth=3)
     reference = h.pixels(scene, h.replaced(settings, samples=256))[0]
     image = h.pixels(scene, h.replaced(settings, samples=16 if integrator == "distributed" else 512, integrator=integrator, seed=1))[0]
@@ -171,6 +171,30 @@ def test_only_sheets_pay_for_the_other_side():
         plan = h.plan_of(h.scene([h.thing(h.quad(), Material(name="m", lobes=(lobe,)))], [BEHIND]), h.settings())
         assert plan.shadow_rays is (shadow_rays_on_either_side if is_asked else shadow_rays_in_front)
         assert plan.world.materials.kind is (TwoSided if is_asked else Reflection)
+
+
+def shade_over_lamp(scale=1.0):
+    """A closed box of satin over a lamp, under a bulb, in a bright world."""
+    box, lamp = (h.thing(o, m, h.affine(scale * np.eye(3))) for o, m in ((h.box(), SATIN), (LAMP.mesh, LAMP.materials[0])))
+    light = PointLight(position=(0.5 * scale, 0.25 * scale, 2 * scale), intensity=(scale**2,) * 3, radius=0.25 * scale)
+    return h.scene([box, lamp], [light], PerspectiveCamera.look_at(np.array((2, -2, 1)) * scale, np.full(3, 0.5 * scale)), world=0.3)
+
+
+@pytest.mark.parametrize("integrator", ["path", "path_naive", "distributed"])
+def test_threads_tiles_and_batches_change_no_bit(monkeypatch, integrator):
+    """H3 through sheets."""
+    settings = h.settings(width=12, height=8, max_depth=3, integrator=integrator)
+    reference = h.pixels(shade_over_lamp(), settings)
+    assert h.same_bits(h.pixels(shade_over_lamp(), h.replaced(settings, threads=2, tile_size=3)), reference)
+    monkeypatch.setattr("glanz.engine.rendering.LANES", 7)
+    assert h.same_bits(h.pixels(shade_over_lamp(), settings), reference)
+
+
+@pytest.mark.parametrize("k", [-30, 30])
+def test_a_power_of_two_as_scale_changes_no_bit(k):
+    """A2 through sheets."""
+    settings = h.settings(width=12, height=8, max_depth=3)
+    assert h.same_bits(h.pixels(shade_over_lamp(2.0**k), settings), h.pixels(shade_over_lamp(), settings))
 
 
 # Mutants
