@@ -7,7 +7,7 @@ from . import needs
 from .interfaces import is_straight, lets_shadow_rays_pass
 from .registry import BSDFS, CAMERAS, FILTERS, INTEGRATORS, LIGHTS, PASSES, SAMPLERS
 from .scene.bodies import inside_of, sharing_space
-from .scene.textured import brightest, material_textures, with_inner
+from .scene.textured import averaged, brightest, material_textures, with_inner
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,7 @@ class Requirements:
         for material in dict.fromkeys(material for materials in inside.values() for material in materials):
             if material.medium is not None and any(material.medium.absorption):
                 ask(needs.ABSORPTION, material.name)
-            if any(getattr(lobe, "spread", 0) and any(lobe.albedo()) for lobe in material.lobes):
+            if any(getattr(lobe, "spread", 0) and any(lobe.albedo()) for lobe in map(averaged, material.lobes)):
                 ask(needs.DISPERSION, material.name)
         if len(camera.motion):
             ask(needs.CAMERA_MOTION, camera.name)

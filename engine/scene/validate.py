@@ -11,7 +11,7 @@ from ..interfaces import is_straight
 from ..registry import BSDFS, CAMERAS, FILTERS, INTEGRATORS, LIGHTS, PASSES, SAMPLERS
 from .environment import EnvironmentMap
 from .medium import Medium
-from .textured import brightest, coordinates_of, darkest, is_texture, material_textures, textures_of, with_inner
+from .textured import averaged, brightest, coordinates_of, darkest, is_texture, material_textures, textures_of, with_inner
 
 
 def validate(scene, settings):
@@ -72,6 +72,8 @@ def _check_material(material):
             raise SceneError(f"material '{material.name}': {type(lobe).__name__} is not a BSDF")
         if is_straight(lobe) and textures_of(lobe):
             raise SceneError(f"material '{material.name}': what passes a {lobe.key} surface is a texture, allowed: a constant")
+        for name in textures_of(lobe).keys() - averaged(lobe).row().keys():
+            raise SceneError(f"material '{material.name}': {lobe.key} {name} is a texture, allowed: a constant")
     if is_texture(material.ambient):
         raise SceneError(f"material '{material.name}': ambient is a texture, allowed: three finite numbers from 0 on")
     for texture in material_textures(material):

@@ -8,6 +8,7 @@ import pytest
 
 from glanz.engine import (
     AreaLight,
+    CheckerTexture,
     Dielectric,
     Lens,
     Material,
@@ -377,3 +378,11 @@ def test_a_part_in_another_glass_closes_the_same_body():
     mesh = dataclasses.replace(mesh, material_indices=np.isin(np.arange(12), upper).astype(int))
     thing = h.Object(name="two", mesh=mesh, materials=(body(0, 1, 1.0).materials[0], ends))
     assert seen([thing, FLOOR]) == pytest.approx(np.exp(-1), rel=NEAR)
+
+
+def test_the_index_of_a_boundary_may_be_a_texture():
+    """Glass whose texture is 1.2 where rays meet it, and 1.8 on average, and another body in it: T = 2 n / (n^2 + 1); detects 0.5 %."""
+    pane = body(0, 1, lobe=Dielectric(CheckerTexture(even=(1.2,) * 3, odd=(2.4,) * 3)), name="pane")
+    inner = h.thing(h.box((3, 3, 0.2), (3.5, 3.5, 0.8), name="inner"), Material(name="inner", lobes=(Dielectric(1.3),)))
+    assert needs.NESTED_MEDIA in Requirements.of(h.scene([pane, inner]), h.settings())
+    assert h.mean_is(layered([pane, inner, FLOOR]), 2.4 / 2.44, floor=1e-4)

@@ -7,6 +7,8 @@ import pytest
 
 from glanz.engine import (
     AreaLight,
+    CheckerTexture,
+    Dielectric,
     EnvironmentMap,
     Lambert,
     Material,
@@ -81,6 +83,10 @@ REFUSED = {
     "absorption below zero": (wears(medium=Medium(absorption=(0, -1, 0))), r"material 'wood': absorption is \(0.0, -1.0, 0.0\)"),
     "absorption of NaN": (wears(medium=Medium(absorption=(math.nan, 0, 0))), "material 'wood': absorption is"),
     "a priority between": (wears(medium=Medium(priority=0.5)), "material 'wood': priority is 0.5, allowed: whole numbers"),
+    "an Abbe number of many": (
+        wears(lobes=(Dielectric(1.5, abbe=CheckerTexture(odd=(30.0,) * 3, even=(60.0,) * 3)),)),
+        "material 'wood': dielectric abbe is a texture, allowed: a constant",
+    ),
     "something else as medium": (wears(medium=(1, 2, 3)), "material 'wood': tuple is not a medium"),
     "something else as light": (h.scene(lights=["lamp"]), "str is not a light"),
     "cone out of range": (h.scene(lights=[SpotLight(name="Cone", angle=0.0)]), "light 'Cone': angle 0.0 rad"),
