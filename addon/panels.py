@@ -111,6 +111,7 @@ class GLANZ_RENDER_PT_film(GlanzPanel, bpy.types.Panel):
         # The box filter has but one width.
         row.active = settings.pixel_filter != "box"
         row.prop(settings, "filter_width")
+        column.prop(settings, "filter_textures")
 
 
 class GLANZ_RENDER_PT_motion_blur(GlanzPanel, bpy.types.Panel):

@@ -128,6 +128,14 @@ class GlanzSceneSettings(bpy.types.PropertyGroup):
         max=10.0,
         subtype="PIXEL",
     )
+    filter_textures: BoolProperty(
+        name="Filter Textures",
+        description=(
+            "Textures are averaged over the part of the picture that a ray stands for, so that fine patterns do not alias. "
+            "Off: they are looked up at points, as the lecture's zone plate is; only more samples or a wider pixel filter help then"
+        ),
+        default=True,
+    )
     adaptive_threshold: FloatProperty(
         name="Adaptive Threshold",
         description=(

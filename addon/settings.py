@@ -20,6 +20,7 @@ _OWN = (
     "sampler",
     "pixel_filter",
     "filter_width",
+    "filter_textures",
     "adaptive_threshold",
     "adaptive_levels",
     "tile_size",

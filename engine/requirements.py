@@ -72,7 +72,7 @@ class Requirements:
                     ask(needs.EMISSIVE_MESHES, o.name)
                 for texture in material_textures(material):
                     ask(needs.TEXTURES, material.name)
-                    if any(part.has_detail for part in with_inner(texture)):
+                    if settings.filter_textures and any(part.has_detail for part in with_inner(texture)):
                         ask(needs.FOOTPRINTS, material.name)
         shining = [light for light in scene.lights if any(light.power())]
         for light in shining:
@@ -96,7 +96,9 @@ class Requirements:
         """As if every feature were asked for: what an engine does that does not look first. For tests and benchmarks."""
         asked = dict(cls.of(scene, settings).needs)
         plugins = [("bsdf", p) for p in BSDFS.values()] + [("light", p) for p in LIGHTS.values()]
-        every = [*needs.MEANING, *(needs.of_plugin(kind, p) for kind, p in plugins)]
+        # What settings forbid nobody can ask for.
+        features = [need for need in needs.MEANING if need != needs.FOOTPRINTS or settings.filter_textures]
+        every = [*features, *(needs.of_plugin(kind, p) for kind, p in plugins)]
         return cls({**asked, **{need: asked.get(need, ("everything",)) for need in every}})
 
     def __contains__(self, need):

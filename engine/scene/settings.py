@@ -27,6 +27,7 @@ class Settings:
     filter_width   full width of the pixel filter [px]; the box is always one pixel wide
     adaptive_threshold  how much colours [0, 1] must differ for a pixel to be divided, see `wavefront.adaptive`; 0: none is
     adaptive_levels     how often it may be, in four each time; `samples` is then that of each part
+    filter_textures  whether textures are averaged over what a ray stands for; else they are looked up at points, and alias
     passes         names of passes, see the registry
     tile_size      side of the square tiles [px]; 0: the whole frame; does not change the picture
     motion_steps   shapes that a mesh which deforms while the shutter is open takes; each costs its memory once more
@@ -50,6 +51,7 @@ class Settings:
     filter_width: float = 1.5
     adaptive_threshold: float = 0.0
     adaptive_levels: int = 3
+    filter_textures: bool = True
     passes: tuple = ("Combined",)
     tile_size: int = 64
     threads: int = 0
@@ -73,8 +75,9 @@ class Settings:
                 raise SceneError(f"setting {name} is {value!r}, allowed: whole numbers from {lowest} to {highest}")
         if isinstance(self.seed, bool) or not isinstance(self.seed, int):
             raise SceneError(f"setting seed is {self.seed!r}, allowed: whole numbers")
-        if not isinstance(self.light_falloff, bool):
-            raise SceneError(f"setting light_falloff is {self.light_falloff!r}, allowed: True or False")
+        for name in ("light_falloff", "filter_textures"):
+            if not isinstance(getattr(self, name), bool):
+                raise SceneError(f"setting {name} is {getattr(self, name)!r}, allowed: True or False")
         if not (isinstance(self.min_contribution, (int, float)) and 0.0 <= self.min_contribution <= 1.0):
             raise SceneError(f"setting min_contribution is {self.min_contribution!r}, allowed: 0 to 1")
         if not (isinstance(self.filter_width, (int, float)) and math.isfinite(self.filter_width) and 0.0 < self.filter_width <= 10.0):

@@ -28,6 +28,7 @@ import numpy as np
 from ..constants import ONE_MINUS_EPS32
 from ..maths.hashing import mix
 from ..registry import PASSES
+from .cones import CARRIED
 from .film import Film
 from .tiles import Pixels, rectangle
 
@@ -72,6 +73,12 @@ class Cells:
         corner = np.tile(np.stack(self._in_pixel()).astype(np.float32), u2.shape[1] // self.x.size)
         # Rounding may reach 1, which no filter expects.
         return np.minimum((u2 + corner) * np.float32(0.5**self.level), np.float32(ONE_MINUS_EPS32))
+
+    def narrow(self, carried):
+        """A cell is so many times narrower than its pixel."""
+        for name, _ in CARRIED:
+            if hasattr(carried, name):
+                setattr(carried, name, getattr(carried, name) * np.float32(0.5**self.level))
 
     def _in_pixel(self):
         last = (1 << self.level) - 1

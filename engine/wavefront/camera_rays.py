@@ -35,6 +35,7 @@ def camera_rays(plan, pixels, first, count):
     x = np.tile((px + (0.5 - 0.5 * settings.width)).astype(np.float32), count) + dx
     y = np.tile((py + (0.5 - 0.5 * settings.height)).astype(np.float32), count) + dy
     rays.o[...], rays.d[...] = plan.aim(plan, rays, x, y)
+    pixels.narrow(rays.carried)
     for stage in plan.on_camera_rays:
         stage(plan, rays)
     return rays

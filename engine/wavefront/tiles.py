@@ -26,6 +26,9 @@ class Pixels:
         """Numbers u2 (2, S * P) in [0, 1) over the filter of a pixel, as numbers over what is to be sampled of it."""
         return u2
 
+    def narrow(self, carried):
+        """Make the cones that rays carry as narrow as what is to be sampled of a pixel."""
+
 
 class EvenTile:
     """All pixels of a tile get the same number of samples.

@@ -21,9 +21,9 @@ def test_the_files_settings_hold():
     glanz.samples, glanz.max_depth, glanz.max_transparent, glanz.seed, glanz.tile_size = 9, 2, 7, -5, 32
     glanz.sampler, glanz.pixel_filter, glanz.filter_width = "random", "box", 2
     glanz.branches, glanz.min_contribution, glanz.light_falloff = 7, 0.25, False
-    glanz.adaptive_threshold, glanz.adaptive_levels = 0.25, 5
+    glanz.adaptive_threshold, glanz.adaptive_levels, glanz.filter_textures = 0.25, 5, False
     s = _settings()
-    assert (s.adaptive_threshold, s.adaptive_levels) == (0.25, 5)
+    assert (s.adaptive_threshold, s.adaptive_levels, s.filter_textures) == (0.25, 5, False)
     assert (s.width, s.height, s.border, s.threads) == (100, 50, (), 3)
     assert (s.samples, s.max_depth, s.max_transparent, s.seed, s.tile_size) == (9, 2, 7, -5, 32)
     assert (s.integrator, s.sampler, s.pixel_filter, s.filter_width) == ("path", "random", "box", 2)

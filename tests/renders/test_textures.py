@@ -175,9 +175,9 @@ TILES = ImageTexture(
 )
 
 
-def near_the_horizon(scene, samples=1):
+def near_the_horizon(scene, samples=1, **changes):
     """The rows below the horizon in which a pixel covers six tiles or more along the view."""
-    image = h.pixels(scene, h.settings(width=128, height=128, samples=samples, max_depth=0))[0]
+    image = h.pixels(scene, h.settings(width=128, height=128, samples=samples, max_depth=0, **changes))[0]
     horizon = np.nonzero(image.any(axis=1))[0][0]
     return image[horizon + 1 : horizon + 5]
 
@@ -194,6 +194,18 @@ def test_the_horizon_catches_textures_without_footprints(monkeypatch):
     monkeypatch.setattr("glanz.engine.plan.footprints_of_cones", cones.no_footprints)
     rows = near_the_horizon(plain_to_the_horizon(CHECKER))
     assert np.abs(rows - 0.5).min() > 0.4
+
+
+@pytest.mark.parametrize("texture", [CHECKER, TILES], ids=["checker", "image"])
+def test_textures_that_are_not_to_be_filtered_are_looked_up_at_points(texture):
+    """Pixels are black or white, but on borders of texels; nothing is carried for it, and to ask for everything changes nothing."""
+    scene, settings = plain_to_the_horizon(texture), h.settings(filter_textures=False)
+    rows = near_the_horizon(scene, filter_textures=False)
+    assert (np.abs(rows - 0.5) == 0.5).mean() > 0.7
+    assert "footprints" not in Requirements.of(scene, settings)
+    assert h.plan_of(scene, settings).carry == ()
+    everything = h.pixels_of_plan(Plan.of(scene, settings, Requirements.everything(scene, settings)))
+    assert h.same_bits(everything, h.pixels(scene, settings))
 
 
 def test_a_checkerboard_before_the_camera_stays_sharp():

@@ -92,6 +92,7 @@ def test_settings_cannot_be_changed():
         ("min_contribution", -0.1),
         ("min_contribution", float("nan")),
         ("light_falloff", 1),
+        ("filter_textures", None),
     ],
 )
 def test_senseless_settings_of_ray_trees_are_refused_by_name(name, value):
