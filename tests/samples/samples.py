@@ -8,7 +8,7 @@ import numpy as np
 import glanz
 
 FOLDER = Path(glanz.__file__).resolve().parent / "sample_scenes"
-NAMES = ("cornell_box", "phong_exponents", "lights", "instances", "mirror_and_glass", "depth_of_field")
+NAMES = ("cornell_box", "phong_exponents", "lights", "instances", "mirror_and_glass", "depth_of_field", "zone_plate")
 
 
 def open_sample(name, samples=None, side=None):

@@ -1,5 +1,6 @@
 """Every sample scene opens, is what its script makes, and renders without a complaint."""
 
+import dataclasses
 import subprocess
 import sys
 
@@ -8,7 +9,7 @@ import numpy as np
 import pytest
 
 from glanz.addon.capture import capture
-from glanz.engine import AreaLight, Phong, PointLight, SpotLight, SunLight
+from glanz.engine import AreaLight, Phong, PointLight, SpotLight, SunLight, render_image
 from glanz.engine.rendering import render
 from glanz.tests.addon import blender
 from glanz.tests.samples import samples
@@ -131,3 +132,18 @@ def test_the_flowers_are_thousands_of_instances_of_a_few_meshes():
     scene, _, _ = capture()
     assert len(scene.objects) > 5000
     assert len({id(o.mesh) for o in scene.objects}) == 4
+
+
+@pytest.mark.parametrize("side", [128, 64, 32])
+def test_the_zone_plate_is_its_formula(side):
+    """(1 + cos(64 r^2)) / 2 in the middle of each pixel, to 1 / 255; it goes on beyond the frame, where wide filters look."""
+    samples.open_sample("zone_plate")
+    scene, settings, warnings = capture()
+    assert warnings == ()
+    assert (settings.sampler, settings.pixel_filter, settings.samples, settings.filter_textures) == ("grid", "box", 1, False)
+    picture = render_image(scene, dataclasses.replace(settings, width=side, height=side)).passes["Combined"][..., 1]
+    x = (np.arange(side) + 0.5) * 2 / side - 1
+    assert np.abs(picture - 0.5 - 0.5 * np.cos(64 * (x**2 + x[:, None] ** 2))).max() <= 1 / 255
+    filtered = dataclasses.replace(settings, width=32, height=32, pixel_filter="tent", filter_width=4.0, samples=256)
+    border = render_image(scene, filtered).passes["Combined"][0, :, 1]
+    assert np.abs(border - 0.5).max() <= 0.15
