@@ -92,8 +92,9 @@ def _hit_disk(k, to_centre, d):
     centre_distance = length(to_centre)
     cos = dot(to_centre, d) / _positive(centre_distance)
     t = centre_distance / np.where(cos > 0, cos, 1)
-    off_axis2 = np.maximum(t * t - centre_distance * centre_distance, 0)
-    meets = (cos > 0) & (off_axis2 < k.radius * k.radius)
+    # The distance of the centre from where the ray meets the disk by a vector, not by t^2 - distance^2, which cancels.
+    off_centre = t * d - to_centre
+    meets = (cos > 0) & (dot(off_centre, off_centre) < k.radius * k.radius)
     L = k.intensity / (PI * _positive(k.radius * k.radius))
     return np.where(meets, t, np.inf), L, _disk_pdf(k.radius, cos, t * t)
 

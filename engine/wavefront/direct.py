@@ -23,7 +23,7 @@ def add_direct_light(plan, rays, surface, reflection, film):
     cos = reflection.cosine(surface, wi)
     f, scattered_pdf = reflection.eval(surface.ns, surface.wo, wi)
     L = rays.beta * f
-    E *= cos * power_heuristic(pdf * probability, scattered_pdf) / probability
+    E *= cos * power_heuristic(pdf * probability, world.lights.rival(index, scattered_pdf)) / probability
     L *= E
     arriving(plan, rays, surface, wi, distance, cos, L, film)
 

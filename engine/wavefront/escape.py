@@ -41,23 +41,35 @@ def add_light_hits_beyond(plan, rays, hits, film):
 
 def light_hits(plan, rays, hits):
     """For each light object that rays meet: which rays (M,), how far away (M,), and the radiance (3, M) that counts."""
-    return _lamps(plan, rays, lambda t: t < hits.t)
+    return _lamps(plan, rays, np.float32(0), hits.t)
 
 
 def light_hits_beyond(plan, rays, hits):
     """The same beyond the surface that rays have passed last: `rays.carried.start` (N,) is how far away it is."""
-    return _lamps(plan, rays, lambda t: (t < hits.t) & (t >= rays.carried.start))
+    return _lamps(plan, rays, rays.carried.start, hits.t)
 
 
-def _lamps(plan, rays, is_met):
-    for lamp in plan.world.lights.hittable if rays.depth else plan.world.lights.visible:
-        t, L, pdf = lamp.light.hit(lamp.k, rays.o, rays.d)
-        lanes = np.nonzero(is_met(t))[0]
-        if not lanes.size:
+def _lamps(plan, rays, near, far):
+    """The lamps at a distance from near on to below far, (N,) each or a number."""
+    lights = plan.world.lights
+    if rays.depth:
+        search, lanes = lights.hittable, lights.looks_for_lamps(rays.pdf)
+    else:
+        search, lanes = lights.visible, None
+    for lamp, asked in search.along(rays.o, rays.d, lanes):
+        t, L, pdf = lamp.light.hit(lamp.k, _of(asked, rays.o), _of(asked, rays.d))
+        met = np.nonzero((t < _of(asked, far)) & (t >= _of(asked, near)))[0]
+        if not met.size:
             continue
-        L = np.broadcast_to(L, rays.d.shape).take(lanes, axis=1) * rays.beta.take(lanes, axis=1)
+        lanes_met = met if asked is None else asked.take(met)
+        L = np.broadcast_to(L, (3, t.size)).take(met, axis=1) * rays.beta.take(lanes_met, axis=1)
         if rays.depth:
-            chosen = plan.world.lights.choice.probability(np.full(lanes.size, lamp.index), rays.o.take(lanes, axis=1))
-            light_pdf = np.broadcast_to(pdf, t.shape).take(lanes) * chosen
-            L *= power_heuristic(rays.pdf.take(lanes), light_pdf)
-        yield lanes, t.take(lanes), L
+            chosen = lights.choice.probability(np.full(met.size, lamp.index), rays.o.take(lanes_met, axis=1))
+            light_pdf = np.broadcast_to(pdf, t.shape).take(met) * chosen
+            L *= power_heuristic(rays.pdf.take(lanes_met), light_pdf)
+        yield lanes_met, t.take(met), L
+
+
+def _of(lanes, column):
+    """The `lanes` (M,) of a column, None: all; a number is the same for all."""
+    return column if lanes is None or np.ndim(column) == 0 else column.take(lanes, axis=-1)

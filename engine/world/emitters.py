@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..arrays import Columns
-from ..constants import EPS32, LUMINANCE, PI
+from ..constants import EPS32, LUMINANCE, ONE_MINUS_EPS32, PI
 from ..maths.patches import lift
 from ..maths.vectors import cross, length
 from .moving_lamps import MovingLamps
@@ -101,15 +101,27 @@ class Emitters:
         is_triangle = np.arange(self.count) >= self.parallelograms
         from_middle = np.where(is_triangle, 1 / 3, 1 / 2) * (e1 + e2)
         corners = np.stack((-from_middle, e1 - from_middle, e2 - from_middle))
+        centre = v0 + from_middle
+        # The fourth corner of a parallelogram is as far from the middle as the first.
+        radius2 = (corners * corners).sum(axis=1).max(axis=0)
+        if self.moving:
+            radius2[self.still :] += self._swept2(centre[:, self.still :])
         return Columns(
-            centre=v0 + from_middle,
+            centre=centre,
             power=self.power() / (2 * PI),
             nearness=np.ones(self.count),
-            # The fourth corner of a parallelogram is as far from the middle as the first.
-            radius2=(corners * corners).sum(axis=1).max(axis=0),
+            radius2=radius2,
             axis=np.zeros((3, self.count)),
             cos_edge=np.full(self.count, -1.0),
         )
+
+
+    def _swept2(self, centre):
+        """How far (M,) the patches that move are from `centre` (3, M) at most, squared."""
+        every = np.arange(self.moving.count)
+        times = (np.full(every.size, time, np.float32) for time in (0, 0.25, 0.75, ONE_MINUS_EPS32))
+        away = [k.v0 + (k.e1 + k.e2) / 3 - centre for k in (self.moving.at(every, time) for time in times)]
+        return np.max([(a * a).sum(axis=0) for a in away], axis=0)
 
 
 def _first_of_pairs(vertices, triangles, radiance, owner):

@@ -1,5 +1,6 @@
 """All lights of a world as one light: choose one, sample it, and know the density of having done so."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,21 +10,19 @@ from ..constants import LUMINANCE
 from ..lights.parallelogram import ParallelogramLight
 from ..lights.triangle import TriangleLight
 from .environment import Environment
+from .lamp_search import MOST_ASKED, SHARP, Hittable, search_of
 from .light_choice import ByPlace, OnlyLight
 from .light_tree_choice import ByTree
 from .texturing import EVEN
 
 MOST_WEIGHED = 32
 """Up to so many lights are all weighed against each other at every point; of more, groups are."""
-MAX_HITTABLE = 16
-"""With more light objects than this, scattered rays do not look for them: each would be tested one by one."""
 
 
 @dataclass(frozen=True, slots=True)
 class Group:
     """Lights of one kind: indices first .. first + count - 1 of all lights.
 
-    is_met  scattered rays look for them; else shadow rays are the only way to find them, and must not share with another
     glow    what textured patches shine with, see `texturing`
     """
 
@@ -31,13 +30,11 @@ class Group:
     k: Columns
     first: int
     count: int
-    is_met: bool = True
     glow: object = EVEN
 
     def sample(self, row, p, u2, time):
         """A point on the lights `row` (N,) of the group at `time` (N,), or on its only light (None): see `interfaces.Light.sample`."""
-        wi, distance, E, pdf = self._sample(self._rows(row, time), p, u2)
-        return wi, distance, E, pdf if self.is_met else np.full_like(pdf, np.inf)
+        return self._sample(self._rows(row, time), p, u2)
 
     def sample_middle(self, row, p, u2, time):
         """The same for the middle of the lights; u2 (2, N) counts for those that have none."""
@@ -61,16 +58,6 @@ class MovingGroup(Group):
 
 
 @dataclass(frozen=True, slots=True)
-class Hittable:
-    """A light object with a size: its kind, its row, its index among all lights, and whether the camera sees it."""
-
-    light: type
-    k: Columns
-    index: int
-    is_visible: bool
-
-
-@dataclass(frozen=True, slots=True)
 class Lights:
     """Every light of a world.
 
@@ -78,16 +65,19 @@ class Lights:
     environment  the `Environment`, the light before the first patch; or None
     first_patch  the index of the first emissive patch
     choice       how one of them is chosen, see `light_choice`
-    visible      the `Hittable` lights that camera rays see
-    hittable     the `Hittable` lights that scattered rays meet: all, or none beyond MAX_HITTABLE
+    visible      the lamps that camera rays see, to be searched by `lamp_search`
+    hittable     the lamps that scattered rays meet: all that have a size
+    few_sharp    rays of a density below SHARP do not look for lamps, the first `lamps` of all lights
     """
 
     groups: tuple
     environment: object
     first_patch: int
     choice: object
-    visible: tuple
-    hittable: tuple
+    visible: object
+    hittable: object
+    few_sharp: bool = False
+    lamps: int = 0
 
     @classmethod
     def of(cls, lamps, environment, emitters, frame, radius, has_choice=True, are_sampled=True, glow=EVEN):
@@ -100,36 +90,44 @@ class Lights:
         kinds = dict.fromkeys(type(lamp) for lamp in lamps)
         lamps = [lamp for kind in kinds for lamp in lamps if type(lamp) is kind]
         groups = []
-        # Without shadow rays every light has to be met.
-        are_met = not are_sampled or sum(lamp.has_extent() for lamp in lamps) <= MAX_HITTABLE
         for kind in kinds:
             rows = [lamp.row(frame) for lamp in lamps if type(lamp) is kind]
-            groups.append(Group(kind, columns(rows), sum(g.count for g in groups), len(rows), are_met))
+            groups.append(Group(kind, columns(rows), sum(g.count for g in groups), len(rows)))
         if environment:
             groups.append(Group(Environment, environment, len(lamps), 1))
         first_patch = sum(group.count for group in groups)
         split = emitters.parallelograms
         for kind, patches in ((ParallelogramLight, slice(0, split)), (TriangleLight, slice(split, emitters.still))):
             if patches.stop > patches.start:
-                groups.append(Group(kind, emitters.k.part(patches), first_patch + patches.start, patches.stop - patches.start, True, glow))
+                groups.append(Group(kind, emitters.k.part(patches), first_patch + patches.start, patches.stop - patches.start, glow))
         if emitters.moving:
-            groups.append(MovingGroup(TriangleLight, emitters.moving, first_patch + emitters.still, emitters.moving.count, True, glow))
+            groups.append(MovingGroup(TriangleLight, emitters.moving, first_patch + emitters.still, emitters.moving.count, glow))
         if not groups:
-            return cls((), None, 0, OnlyLight(), (), ())
-        hittable = tuple(_hittable(lamps, groups))
+            return cls((), None, 0, OnlyLight(), search_of(()), search_of(()))
+        hittable = tuple(_hittable(lamps, groups, frame))
         return cls(
             tuple(groups),
             environment,
             first_patch,
             _choice([*lamps, environment] if environment else lamps, emitters, frame, radius) if has_choice else OnlyLight(),
-            tuple(lamp for lamp in hittable if lamp.is_visible),
-            hittable if are_met else (),
+            search_of(tuple(lamp for lamp in hittable if lamp.is_visible)),
+            search_of(hittable),
+            are_sampled and len(hittable) > MOST_ASKED,
+            len(lamps),
         )
 
     @property
     def is_empty(self):
         """Whether there is nothing to sample."""
         return not self.groups
+
+    def rival(self, index, pdf):
+        """The density with which scattered rays look for lights `index`, where they are sent with the density `pdf` (N,)."""
+        return np.where((index < self.lamps) & (pdf < SHARP), np.float32(0), pdf) if self.few_sharp else pdf
+
+    def looks_for_lamps(self, pdf):
+        """Which scattered rays (M,) of density `pdf` (N,) do; None: all."""
+        return np.nonzero(pdf >= SHARP)[0] if self.few_sharp else None
 
     def sample(self, index, p, u2, time=None):
         """A point on light `index` (N,), or on the only light (None), at `time` (N,): see `interfaces.Light.sample`.
@@ -185,9 +183,11 @@ def _choice(lamps, emitters, frame, radius):
     return ByTree.of(np.concatenate((powers, emitters.power())), weights)
 
 
-def _hittable(lamps, groups):
+def _hittable(lamps, groups, frame):
     """`Hittable` for each lamp with a size; `lamps` are in the order of `groups`."""
     for group in groups:
         for i, lamp in enumerate(lamps[group.first : group.first + group.count]):
             if lamp.has_extent():
-                yield Hittable(group.light, group.k.take([i]), group.first + i, lamp.is_visible)
+                weight = lamp.weight(frame)
+                radius = math.sqrt(weight["radius2"]) if weight["nearness"] else math.inf
+                yield Hittable(group.light, group.k.take([i]), group.first + i, weight["centre"], radius, lamp.is_visible)

@@ -5,10 +5,11 @@ import math
 import numpy as np
 import pytest
 
-from glanz.engine import AreaLight, PointLight, SpotLight
-from glanz.engine.world import light_tree_choice
+from glanz.engine import AreaLight, Lambert, Material, Mirror, Phong, PointLight, SpotLight
+from glanz.engine.world import lamp_search, light_tree_choice
 from glanz.engine.world.light_choice import weigh
 from glanz.engine.world.light_tree_choice import ByTree
+from glanz.engine.world.lights import Lights
 from glanz.tests import helpers as h
 from glanz.tests.polygons import polygon_irradiance
 
@@ -99,3 +100,66 @@ def test_light_that_many_lamps_leave_dark_is_found_where_it_is():
     values = irradiances(h.receiver(lights, distance=0.1))
     assert h.mean_is(values, 0.25, floor=1e-4)
     assert values.std() <= 0.3 * 0.25
+
+
+def lamps_of_a_size(count):
+    """Panels that face down, and bulbs, in rows above a floor; all are brighter than one another."""
+    places = [(0.4 * (i % 8) - 1.4, 0.4 * (i // 8) - 1.2, 1.0 + 0.05 * (i % 3)) for i in range(count)]
+    return [
+        AreaLight(name=f"{i}", world_from_light=h.affine(translation=place), size_x=0.2, size_y=0.3, radiance=(1.0 + 0.1 * i,) * 3)
+        if i % 2
+        else PointLight(name=f"{i}", position=place, radius=0.1, intensity=(0.03 + 0.003 * i,) * 3)
+        for i, place in enumerate(places)
+    ]
+
+
+def gallery(count, material, visible=False):
+    floor = h.thing(h.quad(x=(6, 0, 0), y=(0, 6, 0)), material)
+    lights = [h.replaced(lamp, is_visible=visible) for lamp in lamps_of_a_size(count)]
+    return h.scene([floor], lights, camera=h.PerspectiveCamera.look_at((0.3, -3.5, 1.6), (0, 0, 0.3), fov=0.7))
+
+
+@pytest.mark.parametrize("integrator", ["path", "path_blind", "whitted"])
+def test_mirrors_and_cameras_show_as_many_lamps_as_there_are(monkeypatch, integrator):
+    """48 lamps above a mirror: the picture in which each is asked one by one, bit for bit."""
+    mirror = Material(name="mirror", lobes=(Mirror((0.9, 0.8, 0.7)),))
+    settings = h.settings(width=48, height=48, max_depth=2, integrator=integrator)
+    for visible in (True, False):
+        image = h.pixels(gallery(48, mirror, visible), settings)
+        with monkeypatch.context() as patch:
+            patch.setattr(lamp_search, "MOST_ASKED", 1000)
+            one_by_one = h.pixels(gallery(48, mirror, visible), settings)
+        assert h.same_bits(image, one_by_one)
+        assert np.unique(image.max(axis=0).round(3)).size > 40
+
+
+def check_gloss(monkeypatch, exponent):
+    material = Material(name="glossy", lobes=(Lambert((0.3,) * 3), Phong((0.6,) * 3, exponent)))
+    settings = h.settings(width=16, height=16, samples=1024, max_depth=0)
+    image = h.pixels(gallery(40, material), settings)[0].astype(float)
+    with monkeypatch.context() as patch:
+        patch.setattr(Lights, "rival", lambda self, index, pdf: pdf)
+        patch.setattr(Lights, "looks_for_lamps", lambda self, pdf: None)
+        shared = h.pixels(gallery(40, material), h.replaced(settings, seed=1))[0].astype(float)
+    lit = shared > 0
+    assert lit.sum() > 128
+    assert h.mean_is(image[lit] / shared[lit], 1.0, floor=2e-3)
+
+
+@pytest.mark.parametrize("exponent", [2.0, 8.0, 30.0, 3000.0])
+def test_gloss_of_any_sharpness_shows_many_lamps(monkeypatch, exponent):
+    """Sharp rays share the lamps with shadow rays, dull ones leave them to those: the picture in which all share all lamps.
+
+    Exponents below and above where one becomes the other, and between them; detects 2 %.
+    """
+    check_gloss(monkeypatch, exponent)
+
+
+@pytest.mark.parametrize(
+    ("way", "mutant"), [("rival", lambda self, index, pdf: pdf), ("looks_for_lamps", lambda self, pdf: None)], ids=["dark", "twice"]
+)
+def test_gloss_catches_one_side_that_does_not_know_what_the_other_leaves(monkeypatch, way, mutant):
+    with monkeypatch.context() as patch:
+        patch.setattr(Lights, way, mutant)
+        with pytest.raises(AssertionError):
+            check_gloss(monkeypatch, 8.0)
