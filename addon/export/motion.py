@@ -147,10 +147,11 @@ STILL = Still()
 class Tracks:
     """Where objects and lights are, and what shape their meshes have: first in the middle, then at all other keys.
 
-    `cameras`, the `CameraTrack`s, look whenever the objects do.
+    `cameras`, the `CameraTrack`s, look whenever the objects do; `check` is called before, and may raise to stop.
     """
 
-    def __init__(self, shutter, depsgraph, cameras, findings):
+    def __init__(self, shutter, depsgraph, cameras, findings, check):
+        self._check = check
         self._shutter, self._depsgraph, self._cameras, self._findings = shutter, depsgraph, cameras, findings
         self._instances, self._shapes, self._lights = {}, {}, []
         self._seen = {}
@@ -176,6 +177,7 @@ class Tracks:
     def moved(self, identities, objects):
         """`objects` without those that are None, each with its motion and its shapes; looks at all other keys for them."""
         for number in self._shutter.others():
+            self._check()
             for camera in self._cameras:
                 camera.look(number)
             self._look(number)

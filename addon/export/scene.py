@@ -34,7 +34,7 @@ def export_views(depsgraph, settings, views, check=lambda: None, frame_set=None)
         cameras = [_camera_track(depsgraph, settings, view) for view in views]
         _note_ignored(scene, findings)
         override = _evaluated(depsgraph.view_layer_eval.material_override, depsgraph)
-        tracks = Tracks(shutter, depsgraph, cameras, findings) if shutter else STILL
+        tracks = Tracks(shutter, depsgraph, cameras, findings, check) if shutter else STILL
         world = _evaluated(getattr(depsgraph.view_layer_eval, "world_override", None) or scene.world, depsgraph)
         world = export_world(world, findings)
         # Last, for to see what moves Blender has to leave the frame.

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from glanz.engine import PerspectiveCamera, PointLight
+from glanz.engine import OrthographicCamera, PerspectiveCamera, PointLight
 from glanz.engine.maths.poses import Keys
 from glanz.engine.wavefront import motion
 from glanz.engine.world.moving_lamps import MovingLamps
@@ -47,6 +47,17 @@ def test_a_stretch_through_flatness_is_a_deformation():
     flat = h.pixels(h.scene([h.replaced(ball, world_from_object=np.diag([1.0, 1.0, 0.01, 1.0]))]), settings)
     full = h.pixels(h.scene([ball]), settings)
     assert 1.05 * flat.sum() < image.sum() < 0.95 * full.sum()
+
+
+def test_an_object_that_grows_from_nothing_is_seen():
+    """From no size to full: the ball covers a third of the area of its disk, on average, in all of the time."""
+    keys = np.stack([h.affine(s * np.eye(3)) for s in (0.0, 1.0)])
+    camera = OrthographicCamera.look_at((0, 0, 5), (0, 0, 0), up=(0, 1, 0), height=2.5)
+    ball = h.thing(h.icosphere(3), GLOW)
+    settings = h.settings(width=16, height=16, samples=256, motion_steps=32)
+    grown = h.pixels(h.scene([h.replaced(ball, motion=keys)], camera=camera), settings).mean(dtype=np.float64)
+    full = h.pixels(h.scene([ball], camera=camera), settings).mean(dtype=np.float64)
+    assert grown == pytest.approx(full / 3, rel=0.02)
 
 
 def test_a_flat_object_moves_as_any_other():
