@@ -127,11 +127,12 @@ class Plan:
         has_wavelength = disperses and not integrator.splits_white
         has_choice, has_environment = needs.LIGHT_CHOICE in requirements, needs.ENVIRONMENT in requirements
         steps = settings.motion_steps if needs.OBJECT_MOTION in requirements else 0
-        passes = needs.TRANSPARENCY in requirements and not integrator.tints_glass
+        passes = needs.TRANSPARENCY in requirements
         tints = needs.TINTED_SHADOWS in requirements
         passing_of = partial(Passing.of, tints_glass=integrator.tints_glass) if passes or tints else None
         # What rays pass on their way is no lobe for them to choose where they end.
-        bsdfs = tuple(bsdf for bsdf in requirements.plugins("bsdf") if not (passes and is_straight(bsdf)))
+        are_passed = passes and not integrator.tints_glass
+        bsdfs = tuple(bsdf for bsdf in requirements.plugins("bsdf") if not (are_passed and is_straight(bsdf)))
         world = compile_world(
             scene, bsdfs, smooth, has_choice, integrator.samples_lights, has_media, has_environment, steps, passing_of, disperses
         )

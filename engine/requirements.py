@@ -7,7 +7,7 @@ from . import needs
 from .interfaces import is_straight, lets_shadow_rays_pass
 from .registry import BSDFS, CAMERAS, FILTERS, INTEGRATORS, LIGHTS, PASSES, SAMPLERS
 from .scene.bodies import inside_of, sharing_space
-from .scene.textured import averaged, brightest, material_textures, with_inner
+from .scene.textured import averaged, brightest, is_texture, material_textures, with_inner
 
 
 @dataclass(frozen=True)
@@ -60,6 +60,10 @@ class Requirements:
             if o.mesh.is_smooth:
                 ask(needs.SMOOTH_NORMALS, o.name)
             for material in o.materials:
+                if is_texture(material.alpha) or material.alpha < 1:
+                    ask(needs.TRANSPARENCY, material.name)
+                    if integrator.samples_lights:
+                        ask(needs.TINTED_SHADOWS, material.name)
                 for lobe in material.lobes:
                     if not any(brightest(lobe).albedo()):
                         continue

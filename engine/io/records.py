@@ -132,7 +132,7 @@ def _check_field(cls, field, value):
     if part is not None:
         fits = isinstance(value, tuple) and all(map(_fits_type(part[0]), value)) if isinstance(part, list) else _fits_type(part)(value)
     elif type(value) in TEXTURES.values():
-        fits = cls in BSDFS.values() or (cls is Material and field.name == "emission")
+        fits = cls in BSDFS.values() or (cls is Material and field.name in ("emission", "alpha"))
     elif dataclasses.is_dataclass(field.default):
         fits = type(value) is type(field.default)
     elif field.default is not dataclasses.MISSING:

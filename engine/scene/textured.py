@@ -69,5 +69,5 @@ def coordinates_of(texture):
 
 
 def material_textures(material):
-    """All textures of a material's lobes and emission, without inner ones."""
+    """All textures of a material's lobes, emission and alpha, without inner ones."""
     return [t for value in (*material.lobes, material) for t in textures_of(value).values()]

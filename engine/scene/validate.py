@@ -74,6 +74,8 @@ def _check_material(material):
             raise SceneError(f"material '{material.name}': what passes a {lobe.key} surface is a texture, allowed: a constant")
         for name in textures_of(lobe).keys() - averaged(lobe).row().keys():
             raise SceneError(f"material '{material.name}': {lobe.key} {name} is a texture, allowed: a constant")
+    if not is_texture(material.alpha) and not 0 <= material.alpha <= 1:
+        raise SceneError(f"material '{material.name}': alpha is {material.alpha}, allowed: 0 to 1")
     if is_texture(material.ambient):
         raise SceneError(f"material '{material.name}': ambient is a texture, allowed: three finite numbers from 0 on")
     for texture in material_textures(material):

@@ -143,7 +143,9 @@ class Material:
 
     lobes     BSDF values (`Lambert`, `Phong`, ...); none: black
     emission  radiance leaving both sides [W m^-2 sr^-1], linear Rec. 709
-    The emission and any parameter of a lobe may be a texture.
+    alpha     the share of the surface that is there, in [0, 1]; where it is not, light goes straight on. It cuts out what the
+              lobes make, not what is emitted. A texture beyond [0, 1] is cut off
+    Emission, alpha and any parameter of a lobe may be a texture.
     ambient   k_a of the lecture's illumination model, the share of each light that arrives everywhere; no other model knows it
     medium    the `Medium` behind surfaces that let light pass; None: nothing is known of it, and nothing is absorbed
     """
@@ -152,6 +154,7 @@ class Material:
     lobes: tuple = ()
     emission: tuple = (0.0, 0.0, 0.0)
     ambient: tuple = (0.0, 0.0, 0.0)
+    alpha: float = 1.0
     medium: Medium | None = None
 
     def __post_init__(self):

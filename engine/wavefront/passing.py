@@ -14,8 +14,10 @@ import dataclasses
 import numpy as np
 
 from ..arrays import Columns
+from ..constants import LUMINANCE
 from ..maths.vectors import dot, length
 from ..world.interaction import leave_on_either_side
+from ..world.texturing import TexturePoints
 from .numbers import Dimension
 from .visibility import blocked, travel
 
@@ -53,16 +55,31 @@ def _decide(plan, rays, hits, turn):
     material = plan.world.triangles.material.take(hits.prim.take(met))
     clear = np.nonzero(table.is_clear.take(material))[0]
     lanes, material = met.take(clear), material.take(clear)
+    alpha = _alpha(plan, rays, hits, lanes, material)
     beta = rays.beta.take(lanes, axis=1)
-    passed = beta * table.transmittance.take(material, axis=1)
+    kept = beta * alpha
+    passed = beta * (1 - alpha) + kept * table.transmittance.take(material, axis=1)
     p = passed.sum(axis=0)
-    total = p + dot(beta, table.albedo.take(material, axis=1))
+    total = p + dot(kept, table.albedo.take(material, axis=1))
     p /= np.where(total > 0, total, 1)
     # Where nothing else goes on there is nothing to decide.
     u1 = 0 if (p == 1).all() else plan.numbers.one(rays, Dimension.PASS + _NEXT_TURN * turn).take(lanes)
     passes = u1 < p
-    rays.beta[:, lanes] = np.where(passes, passed / p, beta / (1 - p))
+    rays.beta[:, lanes] = np.where(passes, passed / p, kept / (1 - p))
     return lanes[passes]
+
+
+def _alpha(plan, rays, hits, lanes, material):
+    """The share (M,) of the surfaces of `material` (M,) that is there, where the rays `lanes` (M,) met them."""
+    alpha = plan.world.passing.alpha.take(material)
+    for row, texture in plan.world.passing.cutouts.items():
+        own = np.nonzero(material == row)[0]
+        at = lanes.take(own)
+        prim, t, u, v = (column.take(at) for column in (hits.prim, hits.t, hits.u, hits.v))
+        across = plan.footprints(plan, rays.carried.take(at), prim, -rays.d.take(at, axis=1), t)
+        value = TexturePoints(plan.world.attributes, prim, u, v, across).value(texture)
+        alpha[own] = np.clip(sum(np.float32(share) * channel for share, channel in zip(LUMINANCE, value)), 0, 1)
+    return alpha
 
 
 def _travel_beyond(plan, rays, hits, film):
@@ -101,14 +118,16 @@ def unblocked_through(plan, rays, o, d, limit, candidate):
 
 def _transmittance(plan, rays, o, d, limit):
     """The share of light (3, N) that passes everything within `limit` (N,) from o along d (3, N), for each of `rays`."""
-    shadow, material = plan.world.passing.shadow, plan.world.triangles.material
+    table, materials = plan.world.passing, plan.world.triangles.material
     share = np.ones_like(o)
-    lanes, at, towards, rest = np.arange(limit.size), o, d, limit
+    lanes, at, towards, rest, rays = np.arange(limit.size), o, d, limit, dataclasses.replace(rays, d=d)
     for _ in range(plan.settings.max_transparent + 1):
         hits = plan.closest(plan, rays.carried, at, towards, rest)
         share[:, lanes] *= plan.left(plan, rays, hits.t)
         met = np.nonzero(hits.prim >= 0)[0]
-        tint = shadow.take(material.take(hits.prim.take(met)), axis=1)
+        material = materials.take(hits.prim.take(met))
+        alpha = _alpha(plan, rays, hits, met, material)
+        tint = 1 - alpha + alpha * table.shadow.take(material, axis=1)
         share[:, lanes.take(met)] *= tint
         on = met[tint.any(axis=0)]
         lanes, hits, towards = lanes.take(on), hits.take(on), towards.take(on, axis=1)

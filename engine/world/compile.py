@@ -166,7 +166,8 @@ def compile_world(
     # Asked for with every feature there is, it may still be missing or black.
     shines = has_environment and scene.world.environment is not None and scene.world.environment.gives_light
     environment = Environment.of(scene.world) if shines else None
-    attributes, lost = compile_attributes(parts, keep, material, table.attributes())
+    passing = passing_of(materials) if passing_of else None
+    attributes, lost = compile_attributes(parts, keep, material, table.attributes(passing.cutouts if passing else {}))
     glow = TexturedGlow(table.glowing, material, attributes) if table.glowing else EVEN
     return CompiledWorld(
         frame=frame,
@@ -178,7 +179,7 @@ def compile_world(
         emitters=emitters,
         background=np.array(scene.world.radiance, np.float32)[:, None],
         media=Media.of(bodies, row, material, owner[keep], frame.scale) if has_media else None,
-        passing=passing_of(materials) if passing_of else None,
+        passing=passing,
         attributes=attributes,
         glow=glow,
         warnings=(*warnings, *lost),

@@ -80,10 +80,10 @@ class Materials:
         shine[:, list(glowing)] = 1
         return cls(tuple(lobes), _thresholds(shares), shares, emission, shine, ambient, kind, textured, glowing)
 
-    def attributes(self):
-        """{attribute of meshes: rows of the materials whose textures are looked up there}."""
-        found = {}
-        for row, texture in [*((row, t.texture) for row, ts in self.textured.items() for t in ts), *self.glowing.items()]:
+    def attributes(self, cutouts):
+        """{attribute of meshes: rows of the materials whose textures are looked up there}, those of {row: alpha} as well."""
+        found, own = {}, ((row, t.texture) for row, ts in self.textured.items() for t in ts)
+        for row, texture in (*own, *self.glowing.items(), *cutouts.items()):
             for coordinates in coordinates_of(texture):
                 found.setdefault(coordinates.attribute, set()).add(row)
         return found

@@ -118,6 +118,10 @@ TABLE = {
         h.scene([h.thing(LEFT, h.replaced(GLASS, medium=Medium()))]),
         {"geometry": ["left"], "bsdf dielectric": ["glass"]},
     ),
+    "alpha": (
+        h.scene([h.thing(h.quad(name="card"), Material(name="leaf", lobes=(Lambert(),), alpha=0.5))]),
+        {"geometry": ["card"], "transparency": ["leaf"], "tinted shadows": ["leaf"], "bsdf lambert": ["leaf"]},
+    ),
     "veil": (
         h.scene([CURTAIN]),
         {

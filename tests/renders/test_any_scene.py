@@ -27,6 +27,7 @@ from glanz.engine import (
     Settings,
     SpotLight,
     SunLight,
+    Transparent,
     World,
     render_image,
 )
@@ -75,6 +76,7 @@ def meshes(draw):
 
 lobes = st.one_of(
     st.builds(Lambert, reflectances),
+    st.builds(Transparent, reflectances),
     st.builds(Phong, reflectances, st.sampled_from((0.0, 0.5, 1.0, 30.0, 1e3, 1e6))),
 )
 materials = st.builds(
@@ -82,6 +84,7 @@ materials = st.builds(
     name=st.just("material"),
     lobes=st.lists(lobes, max_size=2),
     emission=st.one_of(st.just((0.0, 0.0, 0.0)), colours),
+    alpha=st.one_of(st.just(1.0), shares),
 )
 objects = st.builds(Object, name=st.just("object"), mesh=meshes(), world_from_object=matrices(), materials=st.lists(materials, max_size=2))
 towards = st.integers(0, 5).map(lambda seed: tuple(h.directions(seed, 1)[:, 0].tolist()))
