@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...engine import Dielectric, Lambert, LambertTransmission, Mirror, Phong, Transparent
-from .colours import added, is_texture, most, times
+from .colours import BLACK, LUMINANCE, WHITE, added, is_texture, most, times
 
 SHARPEST_EXPONENT = 1e6
 """The engine's sharpest Phong lobe, 0.1 degrees wide; what would be sharper (roughness below 0.0376) is a mirror."""
@@ -15,19 +15,22 @@ SHARPEST_EXPONENT = 1e6
 class Closure:
     """The sum of `lobes` (BSDF values) plus `emission` [W m^-2 sr^-1].
 
-    Colours are constants or textures, see `colours`. `environments` are `EnvironmentMap` values, which add to the emission of
+    Colours are constants or textures, see `colours`. `alpha` cuts out the lobes where it is a texture: light goes straight on
+    where it is 0 (a constant alpha is part of the lobes). `environments` are `EnvironmentMap` values, which add to the emission of
     a world.
     """
 
     lobes: tuple = ()
     emission: object = (0.0, 0.0, 0.0)
     environments: tuple = ()
+    alpha: object = 1.0
 
     def __add__(self, other):
         return Closure(
             self.lobes + other.lobes,
             added(self.emission, other.emission),
             self.environments + other.environments,
+            self.alpha if is_texture(self.alpha) else other.alpha,
         )
 
     def scaled(self, factor):
@@ -121,5 +124,29 @@ def mix(factor, first, second):
 
 
 def with_alpha(alpha, closure):
-    """`closure` where the surface is, with probability `alpha`; light goes straight on where it is not."""
-    return mix(alpha, transparent((1.0, 1.0, 1.0)), closure)
+    """`closure` where the surface is, with probability `alpha`; light goes straight on where it is not.
+
+    What it emits counts with the average of an alpha that is a texture.
+    """
+    if is_texture(alpha):
+        return replace(closure, alpha=alpha, emission=times(closure.emission, average(alpha)))
+    return mix(alpha, transparent(WHITE), closure)
+
+
+def without_texture(closure):
+    """`closure` with the average of an alpha that is a texture."""
+    alpha, closure = closure.alpha, replace(closure, alpha=1.0)
+    if not is_texture(alpha):
+        return closure
+    lobes = mix(average(alpha), transparent(WHITE), replace(closure, emission=BLACK)).lobes
+    return replace(closure, lobes=lobes)
+
+
+def is_clear(closure):
+    """Whether light goes straight on through `closure`, all of it, and nothing else happens."""
+    return closure.lobes == (Transparent(WHITE),) and closure.emission == BLACK and not is_texture(closure.alpha)
+
+
+def average(alpha):
+    """The average of a texture as a share of light."""
+    return float(np.clip(np.dot(LUMINANCE, alpha.average()), 0, 1))

@@ -4,7 +4,8 @@ import numpy as np
 
 from ...engine import TEXTURES, LinearTexture
 
-WHITE = (1.0, 1.0, 1.0)
+WHITE, BLACK = (1.0, 1.0, 1.0), (0.0, 0.0, 0.0)
+LUMINANCE = (0.2126, 0.7152, 0.0722)
 
 
 def is_texture(colour):
@@ -40,6 +41,11 @@ def cut(colour):
         return _constant(np.clip(colour, 0, 1))
     low, high = colour.bounds()
     return colour if min(low) >= 0 and max(high) <= 1 else LinearTexture((colour,), (WHITE,), is_clipped=True)
+
+
+def inverted(texture):
+    """1 - `texture`."""
+    return added(WHITE, times(texture, -1))
 
 
 def typical(colour):

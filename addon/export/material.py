@@ -69,7 +69,7 @@ def _checked(name, owner, closure, findings):
         if most > 1 + 1e-6:  # rounding is nobody's fault
             findings.note("the material reflects more than it receives, so it is darkened", owner)
         lobes = tuple(scaled_lobe(lobe, 1 / most) for lobe in lobes)
-    return Material(name=name, lobes=lobes, emission=clean_colour(closure.emission, owner, findings))
+    return Material(name=name, lobes=lobes, emission=clean_colour(closure.emission, owner, findings), alpha=closure.alpha)
 
 
 def _clean_lobe(lobe, owner, findings):

@@ -2,11 +2,11 @@
 
 from . import closure
 from .closure import Closure
-from .colours import cut, is_texture
+from .colours import cut, inverted, is_texture
 from .environment import export_environment
 from .nodes import Reader, input_by_identifier
 from .principled import principled_lobes
-from .textures import colour_of
+from .textures import colour_of, number_of
 
 _WHITE = (1.0, 1.0, 1.0)
 
@@ -97,12 +97,37 @@ def _transparent(reader, node):
 
 
 def _add(reader, node):
-    return _behind(reader, node.inputs[0]) + _behind(reader, node.inputs[1])
+    first, second = (_behind(reader, socket) for socket in node.inputs[:2])
+    # What is emitted is not cut out, so it may be added.
+    if first.lobes and second.lobes:
+        first, second = (_averaged(reader, shader) for shader in (first, second))
+    return first + second
 
 
 def _mix(reader, node):
-    factor = reader.number(node, "Fac", default=0.5)
-    return closure.mix(factor, *(_behind(reader, node.inputs[i]) for i in (1, 2)))
+    factor = number_of(reader, node, "Fac", default=0.5)
+    first, second = (_behind(reader, node.inputs[i]) for i in (1, 2))
+    if is_texture(factor):
+        for clear, other, alpha in ((first, second, factor), (second, first, inverted(factor))):
+            if closure.is_clear(clear):
+                return _cut_out(reader, alpha, other)
+        reader.note("a texture that mixes two shaders counts with its average, unless one of them is Transparent and white")
+        factor = closure.average(factor)
+    return closure.mix(factor, *(_averaged(reader, shader) for shader in (first, second)))
+
+
+def _averaged(reader, shader):
+    """A closure without a texture for its alpha."""
+    if is_texture(shader.alpha):
+        reader.note("the texture of an alpha counts with its average where the shader is mixed with another")
+    return closure.without_texture(shader)
+
+
+def _cut_out(reader, alpha, shader):
+    """`shader` where the surface is, by `alpha`, a number or texture."""
+    if is_texture(alpha) and (is_texture(shader.emission) or any(shader.emission)):
+        reader.note("what is emitted is not cut out by a texture for alpha, it counts with its average")
+    return closure.with_alpha(alpha, _averaged(reader, shader))
 
 
 _LEFT_OUT = {
@@ -137,7 +162,7 @@ def _principled(reader, node):
         transmission,
     )
     shine = closure.emission(colour_of(reader, node, "Emission Color"), reader.number(node, "Emission Strength"))
-    return closure.with_alpha(reader.number(node, "Alpha", 1.0), Closure(lobes, shine.emission))
+    return _cut_out(reader, number_of(reader, node, "Alpha", 1.0), Closure(lobes, shine.emission))
 
 
 _TABLE = {

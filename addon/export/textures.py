@@ -15,6 +15,12 @@ def colour_of(reader, node, identifier, default=_BLACK):
     return reader.colour(node, identifier, default) if found is None else found
 
 
+def number_of(reader, node, identifier, default=0.0):
+    """The number of an input: a constant, or a texture where one feeds it and `reader` reads textures."""
+    found = _texture_behind(reader, node, identifier)
+    return reader.number(node, identifier, default) if found is None else found
+
+
 def _texture_behind(reader, node, identifier):
     """The texture that feeds an input, or None."""
     socket = input_by_identifier(node, identifier)
@@ -43,7 +49,12 @@ def _note_mapping(reader, node):
 
 
 def _image(reader, node, is_colour):
-    bitmap = reader.bitmaps.of(node.image, reader.owner)
+    if is_colour:
+        # As Cycles has it: whoever asks for the alpha cuts the colour out with it.
+        is_cut = any(s.identifier == "Alpha" and s.is_linked for s in node.outputs)
+        bitmap = reader.bitmaps.of(node.image, reader.owner, "uncut" if is_cut else "colour")
+    else:
+        bitmap = reader.bitmaps.of(node.image, reader.owner, "alpha")
     if node.projection != "FLAT":
         reader.note(f"{node.projection.capitalize()} projection of Image Texture is left out, it is rendered flat")
     if node.interpolation in ("Cubic", "Smart"):
@@ -80,6 +91,7 @@ def _gradient(reader, node, is_colour):
 
 _TABLE = {
     ("TEX_IMAGE", "Color"): _image,
+    ("TEX_IMAGE", "Alpha"): _image,
     ("TEX_CHECKER", "Color"): _checker,
     ("TEX_CHECKER", "Fac"): _checker,
     ("TEX_NOISE", "Color"): _noise,

@@ -6,9 +6,10 @@ import pytest
 
 from glanz.engine.wavefront import passing
 from glanz.tests.addon import blender
+from glanz.tests.addon.export.test_alpha import leaf
 from glanz.tests.parity import parity
 
-SAMPLES = 1024
+SAMPLES = 400
 TOLERANCE = 0.01
 LAMPS = {
     "sun": ("SUN", {"energy": 3, "angle": 0.2}),
@@ -64,6 +65,31 @@ def cards_over_floor(lamp):
 def test_cards_look_and_cast_shadows_as_in_cycles(lamp, tmp_path):
     """Means of 16 blocks within 1 %, of the picture within 0.2 %."""
     cards_over_floor(lamp)
+    ours, theirs = (parity.pixels(engine, tmp_path) for engine in ("GLANZ", "CYCLES"))
+    assert parity.difference(ours, theirs) <= TOLERANCE
+    assert abs(ours.mean() / theirs.mean() - 1) <= 0.002
+
+
+def leaf_image():
+    """A round leaf with holes, red to green, that fades out at its border; what is around it is magenta, and must not be seen."""
+    y, x = np.mgrid[-1:1:64j, -1:1:64j]
+    alpha = np.clip((0.9 - np.hypot(x, y)) * 6, 0, 1) * (np.hypot(x - 0.3, y - 0.2) > 0.25)
+    pixels = np.dstack((0.5 + 0.4 * x, 0.5 - 0.3 * y, 0.2 + 0 * x, alpha)).astype(np.float32)
+    pixels[alpha == 0, :3] = (1, 0, 1)
+    image = bpy.data.images.new("Leaf", 64, 64, alpha=True)
+    image.pixels.foreach_set(pixels.ravel())
+    image.update()
+    return image
+
+
+@pytest.mark.parametrize("lamp", ["area", "point"])
+def test_leaves_on_cards_look_and_cast_shadows_as_in_cycles(lamp, tmp_path):
+    cards_over_floor(lamp)
+    for i, (ob, is_principled) in enumerate(((bpy.data.objects["Card 0"], False), (bpy.data.objects["Card 1"], True))):
+        ob.data.uv_layers.new(name="UV").data.foreach_set("uv", (0, 0, 1, 0, 1, 1, 0, 1))
+        material, picture = leaf(is_principled)
+        picture.image, picture.interpolation = leaf_image(), ("Closest", "Linear")[i]
+        ob.data.materials[0] = material
     ours, theirs = (parity.pixels(engine, tmp_path) for engine in ("GLANZ", "CYCLES"))
     assert parity.difference(ours, theirs) <= TOLERANCE
     assert abs(ours.mean() / theirs.mean() - 1) <= 0.002
