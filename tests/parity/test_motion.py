@@ -21,8 +21,10 @@ FRAME = 10
 
 
 def open_shutter(shutter=1.0, position="CENTER"):
-    render = bpy.context.scene.render
-    render.use_motion_blur, render.motion_blur_shutter, render.motion_blur_position = True, shutter, position
+    scene = bpy.context.scene
+    scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, shutter
+    owner = scene.render if hasattr(scene.render, "motion_blur_position") else scene.cycles
+    owner.motion_blur_position = position
 
 
 def stage(max_depth=0):

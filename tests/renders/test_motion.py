@@ -139,13 +139,14 @@ def test_the_spoke_catches_a_spin_that_is_not_constant(monkeypatch):
 # Paths keep their time
 
 
-def test_the_shadow_of_what_moves_moves_with_it():
+@pytest.mark.parametrize("integrator", ["path", "distributed", "whitted"])
+def test_the_shadow_of_what_moves_moves_with_it(integrator):
     """A card over a floor under a sun, both seen: the shadow is a trapezoid as the card's own picture, below it."""
     floor = h.thing(h.quad(x=(100, 0, 0), y=(0, 100, 0), name="floor"), h.lambert(1.0))
     card = h.thing(h.quad((0, 0, 10), (1, 0, 0), (0, 30, 0), name="card"), h.lambert(0))
     objects = [floor, moving(card, shifted((-1.5, 0, 0), (1.5, 0, 0)))]
     scene = h.scene(objects, [SunLight(irradiance=(math.pi,) * 3)], from_above(5, 50))
-    settings = h.settings(width=50, height=1, samples=2048, max_depth=0, sampler="random")
+    settings = h.settings(width=50, height=1, samples=2048, max_depth=0, sampler="random", integrator=integrator)
     row = h.pixels(scene, settings)[0, 0].astype(np.float64)
     x = (np.arange(50) + 0.5) / 10 - 2.5
     truth = 1 - trapezoid(x, 3.0, 0.1)
