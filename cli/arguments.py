@@ -42,6 +42,7 @@ def _add_render(commands):
         ("sampler", str, "random numbers: stratified, sobol, blue_noise, multijitter, random, grid"),
         ("samples", int, "paths per pixel"),
         ("max-depth", int, "bounces; 0 is direct light only"),
+        ("max-transparent", int, "transparent surfaces that light passes between two bounces"),
         ("branches", int, "rays that distributed ray tracing splits into at the first hit"),
         ("min-contribution", float, "what a ray must count at least to be followed in whitted and distributed, 0 to 1"),
         ("seed", int, "another number, other noise"),

@@ -16,6 +16,7 @@ OVERRIDES = (
     "samples",
     "sample_range",
     "max_depth",
+    "max_transparent",
     "branches",
     "min_contribution",
     "seed",

@@ -41,9 +41,9 @@ def with_uvs(mesh, uvs=CORNERS, indices=None, names=("UV",)):
 
 
 def everything(scale=1.0):
-    """`scenes.everything` with textured materials: reflectances, a textured lobe among two, emission."""
+    """`scenes.everything` with textured materials: reflectances, a textured lobe among two, emission, alpha."""
     base = scenes.everything(scale)
-    floor, smooth, flat, box, glow, *others = base.objects
+    floor, smooth, flat, box, glow, veil, *others = base.objects
     painted = h.replaced(floor, mesh=with_uvs(floor.mesh), materials=(Material(name="painted", lobes=(Lambert(PAINTED),)),))
     veined = Material(name="veined", lobes=(Lambert((0.2, 0.3, 0.1)), Phong(LinearTexture((VEINED,), ((0.5, 0.4, 0.6),)), 20.0)))
     shining = Material(name="shining", lobes=(Lambert((0.3, 0.3, 0.3)),), emission=LinearTexture((VEINED,), ((3.0, 2.0, 1.0),)))
@@ -56,6 +56,7 @@ def everything(scale=1.0):
             flat,
             h.replaced(box, materials=(Material(name="checkered", lobes=(Lambert(checkered),)),)),
             h.replaced(glow, materials=(shining,)),
+            h.replaced(veil, materials=(h.replaced(scenes.VEIL, name="lace", alpha=VEINED),)),
             *others,
         ],
     )

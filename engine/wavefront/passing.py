@@ -55,7 +55,7 @@ def _decide(plan, rays, hits, turn):
     material = plan.world.triangles.material.take(hits.prim.take(met))
     clear = np.nonzero(table.is_clear.take(material))[0]
     lanes, material = met.take(clear), material.take(clear)
-    alpha = _alpha(plan, rays, hits, lanes, material)
+    alpha = _alpha(plan, hits, lanes, material, _footprints_of(plan, rays, hits))
     beta = rays.beta.take(lanes, axis=1)
     kept = beta * alpha
     passed = beta * (1 - alpha) + kept * table.transmittance.take(material, axis=1)
@@ -69,15 +69,26 @@ def _decide(plan, rays, hits, turn):
     return lanes[passes]
 
 
-def _alpha(plan, rays, hits, lanes, material):
+def _footprints_of(plan, rays, hits):
+    """What the rays `lanes` (M,) of a batch stand for on the triangles `prim` (M,) that they met, as a function of these."""
+    return lambda lanes, prim: plan.footprints(
+        plan, rays.carried.take(lanes), prim, -rays.d.take(lanes, axis=1), hits.t.take(lanes)
+    )
+
+
+def _point_by_point(lanes, prim):
+    """Shadow rays stand for nothing but themselves: on average it is the same."""
+    return
+
+
+def _alpha(plan, hits, lanes, material, footprints):
     """The share (M,) of the surfaces of `material` (M,) that is there, where the rays `lanes` (M,) met them."""
     alpha = plan.world.passing.alpha.take(material)
     for row, texture in plan.world.passing.cutouts.items():
         own = np.nonzero(material == row)[0]
         at = lanes.take(own)
-        prim, t, u, v = (column.take(at) for column in (hits.prim, hits.t, hits.u, hits.v))
-        across = plan.footprints(plan, rays.carried.take(at), prim, -rays.d.take(at, axis=1), t)
-        value = TexturePoints(plan.world.attributes, prim, u, v, across).value(texture)
+        prim, u, v = (column.take(at) for column in (hits.prim, hits.u, hits.v))
+        value = TexturePoints(plan.world.attributes, prim, u, v, footprints(at, prim)).value(texture)
         alpha[own] = np.clip(sum(np.float32(share) * channel for share, channel in zip(LUMINANCE, value)), 0, 1)
     return alpha
 
@@ -120,13 +131,13 @@ def _transmittance(plan, rays, o, d, limit):
     """The share of light (3, N) that passes everything within `limit` (N,) from o along d (3, N), for each of `rays`."""
     table, materials = plan.world.passing, plan.world.triangles.material
     share = np.ones_like(o)
-    lanes, at, towards, rest, rays = np.arange(limit.size), o, d, limit, dataclasses.replace(rays, d=d)
+    lanes, at, towards, rest = np.arange(limit.size), o, d, limit
     for _ in range(plan.settings.max_transparent + 1):
         hits = plan.closest(plan, rays.carried, at, towards, rest)
         share[:, lanes] *= plan.left(plan, rays, hits.t)
         met = np.nonzero(hits.prim >= 0)[0]
         material = materials.take(hits.prim.take(met))
-        alpha = _alpha(plan, rays, hits, met, material)
+        alpha = _alpha(plan, hits, met, material, _point_by_point)
         tint = 1 - alpha + alpha * table.shadow.take(material, axis=1)
         share[:, lanes.take(met)] *= tint
         on = met[tint.any(axis=0)]
