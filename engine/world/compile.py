@@ -118,9 +118,9 @@ def compile_world(
     owner = _concatenate([part.owner for part in parts], 0).astype(np.intp)
     bodies = Bodies.of(scene.objects) if has_media else None
     if has_media:
-        # What moves stays as it is: it touches nothing for long.
-        is_still = np.arange(owner.size) < sum(part.owner.size for part in still)
-        vertices = moved_apart(vertices, indices, owner, bodies.layer.take(owner) * is_still)
+        away = np.zeros(len(scene.objects))
+        away[[i for i, _ in changing]] = [frame.scale * m.away(frame.origin) for m in moving]
+        vertices = moved_apart(vertices, indices, owner, bodies.layer.take(owner), away)
     corners, double_area, normal, usable = _measure(vertices, indices)
     warnings = _report_unusable(usable)
     # A triangle without an area is never hit: leaving it out changes no picture. Emitters come last, but for what moves.

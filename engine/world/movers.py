@@ -64,6 +64,12 @@ class Moving:
         return cls(tuple(parts), world, keys, anchor, keys.stretch_at(0.5) if is_stretched and not deforms else None)
 
 
+    def away(self, origin):
+        """How far the origin of the local frame comes from `origin` (3,) at most [m]."""
+        pivot = np.einsum("ijk,j->ik", self.keys.stretch, self.anchor)
+        return float(length(self.keys.place - origin[:, None]).max() + length(pivot).max())
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Movers:
     """All moving objects of a world.

@@ -15,10 +15,11 @@ _STEP = 4
 """By how many starts off a face each body grows more than the next weaker one; corners, where it slants, less."""
 
 
-def moved_apart(vertices, indices, owner, layer):
+def moved_apart(vertices, indices, owner, layer, away=None):
     """Vertices (3, V) float32 of bodies that have grown outwards along their area-weighted normals.
 
     indices (3, F) are the triangles, owner (F,) their objects, and layer (F,) by how many steps they are to grow; 0: not.
+    away (O,) is how far from the middle of render space the local frame of each object may be, None: they have none.
     """
     faces = np.nonzero(layer)[0]
     if not faces.size:
@@ -36,7 +37,8 @@ def moved_apart(vertices, indices, owner, layer):
     n /= np.maximum(length(n), np.finfo(np.float64).tiny)
     extent = np.zeros(n.shape[1])
     np.maximum.at(extent, at, np.tile(np.maximum(np.abs(b - a), np.abs(c - a)).max(axis=0), 3))
-    height = _STEP * START_ULPS * EPS32 * layer.take(of_vertex) * (np.abs(p).max(axis=0) + extent.take(point))
+    size = np.abs(p).max(axis=0) + extent.take(point) + (0 if away is None else away.take(owner.take(of_vertex)))
+    height = _STEP * START_ULPS * EPS32 * layer.take(of_vertex) * size
     grown = vertices.copy()
     grown[:, used] = p + height * n.take(point, axis=1)
     return grown
