@@ -25,7 +25,6 @@ from glanz.engine.world.interaction import START_ULPS
 from glanz.engine.world.media import Media
 from glanz.engine.world.touching import moved_apart
 from glanz.tests import helpers as h
-from glanz.tests.moving import moving, shifted, turned
 
 CLEAR = Dielectric(1.0)
 """A boundary that is there and does nothing: what is left of the light is Beer's law alone."""
@@ -251,26 +250,6 @@ def test_the_sum_catches_touching_bodies_that_are_not_moved_apart(monkeypatch):
     monkeypatch.setattr("glanz.engine.world.compile.moved_apart", lambda vertices, *others: vertices)
     with pytest.raises(AssertionError):
         test_bodies_that_touch_pass_what_their_boundaries_add_up_to(1)
-
-
-@pytest.mark.parametrize("glass", [-1, 0, 1])
-def test_bodies_that_touch_and_move_together_pass_the_same(glass):
-    """A glass that is carried about with its water in it: they touch all the time."""
-    keys = turned((-0.2, 0.3)) @ shifted((-1, 0.5, 0), (1.2, -0.4, 0))
-    things = [(0, 1, 0.3), (1, 2, 1.0), (2, 3, 0.3)]
-    absorbing = [moving(body(*z, a, glass * (a < 1), name=f"{z}"), keys) for *z, a in things]
-    for order in (1, -1):
-        assert seen([*absorbing[::order], FLOOR], samples=16) == pytest.approx(np.exp(-1.6), rel=GROWN)
-    water = moving(body(1, 2, lobe=Dielectric(1.33), name="water"), keys)
-    wall = [moving(body(*z, 0, glass, lobe=Dielectric(2.4), name=f"{z}"), keys) for z in ((0, 1), (2, 3))]
-    assert h.mean_is(layered([*wall, water, FLOOR]), incoherent(1, 2.4, 1.33, 2.4, 1), floor=1e-5)
-
-
-def test_moving_together_catches_bodies_that_are_left_as_they_are(monkeypatch):
-    """They do not grow, and faces that coincide are met once."""
-    monkeypatch.setattr("glanz.engine.world.compile.moved_apart", lambda vertices, *others: vertices)
-    with pytest.raises(AssertionError):
-        test_bodies_that_touch_and_move_together_pass_the_same(1)
 
 
 @pytest.mark.parametrize("shared", [True, False])
