@@ -33,8 +33,8 @@ from .film import Film
 from .tiles import Pixels, rectangle
 
 _COLOURS = "Combined"
-_MOST_CELLS = 2**22
-"""Of the smallest cells in a tile: a limit of memory, 300 MB or so where all is divided."""
+_MOST_CELLS = 2**21
+"""Of the smallest cells in a tile: a limit of memory, 350 MB where all is divided."""
 _QUARTERS = ((0, 0), (1, 0), (0, 1), (1, 1))
 _AROUND = tuple((x, y) for y in (-1, 0, 1) for x in (-1, 0, 1) if x or y)
 
