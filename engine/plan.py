@@ -22,7 +22,7 @@ from .wavefront.cones import (
     no_footprints,
     start_cones_in_range,
 )
-from .wavefront.direct import shadow_rays_in_front, shadow_rays_on_either_side
+from .wavefront.direct import any_side, no_side, remember_side, shaded_side, shadow_rays_in_front, shadow_rays_on_either_side
 from .wavefront.emission import add_emission, even_shine, textured_shine
 from .wavefront.escape import add_background, add_environment, add_light_hits, add_light_hits_beyond
 from .wavefront.motion import (
@@ -59,6 +59,7 @@ class Plan:
     closest, occluded  what lies along rays (plan, carried, o, d, limit), see `wavefront.visibility`
     reach              how far (plan, rays) rays go
     travel             the hits (plan, rays, film) of a batch, see `wavefront.visibility`
+    lit_side           the normals (surface) on the side that a choice of lights is for; None: any
     shadow_rays        the shadow rays (plan, rays, surface, wi, distance) to points on lights
     unblocked          the shadow rays (plan, rays, o, d, limit, candidate) that arrive
     left               the share of light (plan, rays, t) that is left after a way t
@@ -94,6 +95,7 @@ class Plan:
     occluded: object
     reach: object
     travel: object
+    lit_side: object
     shadow_rays: object
     unblocked: object
     left: object
@@ -149,6 +151,7 @@ class Plan:
             places = dispersion.one_wavelength if has_wavelength else dispersion.three_wavelengths
             adjust_reflection = (dispersion.indices(media.around if is_nested else dispersion.vacuum, places),)
         can_sample = integrator.samples_lights and world.materials.rough_lobes and not world.lights.is_empty
+        minds_side = bool(can_sample and world.lights.choice.minds_side and world.materials.kind is not TwoSided)
         is_clipped = needs.CLIP_RANGE in requirements
         follows = needs.CAMERA_MOTION in requirements
         nearest, blocked = (closest_at_time, occluded_at_time) if world.movers else (closest, occluded)
@@ -172,6 +175,7 @@ class Plan:
                 *((("inside", media.in_no_body),) if has_media else ()),
                 *((("wavelength", dispersion.white),) if has_wavelength else ()),
                 *(CARRIED if has_cones else ()),
+                *((("facing", no_side),) if minds_side else ()),
             ),
             aim=aim_cones(aim) if has_cones else aim,
             aperture=bladed_aperture if camera.lens.blades else round_aperture,
@@ -186,6 +190,7 @@ class Plan:
             occluded=media.occluded_in_media(blocked, media.through_media(nearest)) if is_nested else blocked,
             reach=(to_the_end_of_moving_range if follows else to_the_end_of_range) if is_clipped else all_the_way,
             travel=travel_through if passes else travel,
+            lit_side=shaded_side if minds_side else any_side,
             shadow_rays=shadow_rays_on_either_side if world.materials.kind is TwoSided else shadow_rays_in_front,
             unblocked=unblocked_through if tints else media.absorbed(unblocked) if absorbs else unblocked,
             left=media.left_by_media if absorbs else all_of_it,
@@ -199,7 +204,11 @@ class Plan:
             adjust_surface=(),
             adjust_reflection=(*((fill_in_textures,) if world.materials.textured else ()), *adjust_reflection),
             on_surface=integrator.on_surface if can_sample else (),
-            on_leaving=(*((media.change_media,) if has_media else ()), *((leave_with_cones,) if has_cones else ())),
+            on_leaving=(
+                *((media.change_media,) if has_media else ()),
+                *((leave_with_cones,) if has_cones else ()),
+                *((remember_side,) if minds_side else ()),
+            ),
             first_hits=tuple(p for p in chosen if p.at_first_hit),
             passes=chosen,
             tile=AdaptiveTile if needs.ADAPTIVE in requirements else EvenTile,

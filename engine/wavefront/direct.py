@@ -18,7 +18,7 @@ def add_direct_light(plan, rays, surface, reflection, film):
     """Light that reaches the surface straight from one light, chosen and sampled; blocked by anything between."""
     world = plan.world
     # Seen from where the shadow ray starts, so that it ends where it should.
-    index, probability, u2 = world.lights.choice.choose(surface.o, plan.numbers.two(rays, Dimension.LIGHT))
+    index, probability, u2 = world.lights.choice.choose(surface.o, plan.numbers.two(rays, Dimension.LIGHT), plan.lit_side(surface))
     wi, distance, E, pdf = world.lights.sample(index, surface.o, u2, rays.time)
     cos = reflection.cosine(surface, wi)
     f, scattered_pdf = reflection.eval(surface.ns, surface.wo, wi)
@@ -56,3 +56,23 @@ def shadow_rays_on_either_side(plan, rays, surface, wi, distance):
         limit[behind] = length(way)
         d[:, behind] = way / limit.take(behind)
     return shadow, shadow.o, d, limit * SHORTENED
+
+
+def any_side(surface):
+    """The normals on the side that is to be lit: there is no such side, or nothing minds it."""
+    return
+
+
+def shaded_side(surface):
+    """The normals (3, N) on the side that is to be lit."""
+    return surface.ns
+
+
+def no_side(plan, rays):
+    """The first column `facing` of what camera rays carry."""
+    return np.zeros_like(rays.d)
+
+
+def remember_side(plan, rays, surface, scattered):
+    """The stage that has scattered rays know which way the surface faces that they leave, for lights that they find."""
+    scattered.carried.facing = surface.ns

@@ -21,7 +21,7 @@ def add_emission(plan, rays, hits, film):
         cos = np.abs(dot(k.normal.take(patch, axis=1), rays.d.take(lanes, axis=1)))
         t = hits.t.take(lanes)
         pdf = patches.pdf(k.area.take(patch) * cos / (t * t))
-        pdf *= world.lights.choice.probability(world.lights.first_patch + patch, rays.o.take(lanes, axis=1))
+        pdf *= world.lights.chance(world.lights.first_patch + patch, rays, lanes)
         L *= power_heuristic(rays.pdf.take(lanes), pdf)
     film.add(rays.slot.take(lanes), L)
 

@@ -19,7 +19,7 @@ def add_environment(plan, rays, hits, film):
     lights, d = plan.world.lights, rays.d.take(lanes, axis=1)
     if rays.depth:
         L, pdf = lights.environment.hit(d)
-        chosen = lights.choice.probability(np.full(lanes.size, lights.first_patch - 1), rays.o.take(lanes, axis=1))
+        chosen = lights.chance(np.full(lanes.size, lights.first_patch - 1), rays, lanes)
         L *= power_heuristic(rays.pdf.take(lanes), pdf * chosen)
     else:
         L = lights.environment.radiance(d)
@@ -64,7 +64,7 @@ def _lamps(plan, rays, near, far):
         lanes_met = met if asked is None else asked.take(met)
         L = np.broadcast_to(L, (3, t.size)).take(met, axis=1) * rays.beta.take(lanes_met, axis=1)
         if rays.depth:
-            chosen = lights.choice.probability(np.full(met.size, lamp.index), rays.o.take(lanes_met, axis=1))
+            chosen = lights.chance(np.full(met.size, lamp.index), rays, lanes_met)
             light_pdf = np.broadcast_to(pdf, t.shape).take(met) * chosen
             L *= power_heuristic(rays.pdf.take(lanes_met), light_pdf)
         yield lanes_met, t.take(met), L

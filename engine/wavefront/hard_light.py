@@ -39,7 +39,7 @@ def _middles(plan, rays, surface):
     """For each light: wi (3, N) towards its middle, distance (N,), and irradiance E (3, N) of a surface that faces it."""
     lights = plan.world.lights
     if lights.count > MOST_LIGHTS:
-        index, probability, u2 = lights.choice.choose(surface.o, plan.numbers.two(rays, Dimension.LIGHT))
+        index, probability, u2 = lights.choice.choose(surface.o, plan.numbers.two(rays, Dimension.LIGHT), plan.lit_side(surface))
         wi, distance, E, _ = lights.sample_middle(index, surface.o, u2, rays.time)
         yield wi, distance, E / probability
         return

@@ -98,6 +98,6 @@ def add_moving_emission(plan, rays, hits, film):
         k, t = lamps.at(lamp, rays.time.take(lanes)), hits.t.take(lanes)
         pdf = patches.pdf(k.area * np.abs(dot(k.normal, rays.d.take(lanes, axis=1))) / (t * t))
         index = world.lights.first_patch + world.emitters.still + lamp
-        pdf *= world.lights.choice.probability(index, rays.o.take(lanes, axis=1))
+        pdf *= world.lights.chance(index, rays, lanes)
         L *= power_heuristic(rays.pdf.take(lanes), pdf)
     film.add(rays.slot.take(lanes), L)

@@ -40,6 +40,11 @@ class Rays:
         """(N,) in [0, 1), from the opening of the shutter to its closing; None where nothing moves."""
         return getattr(self.carried, "time", None)
 
+    @property
+    def facing(self):
+        """(3, N) the normals on the side that rays have left; None where no choice of a light minds it."""
+        return getattr(self.carried, "facing", None)
+
     def landed(self, lanes):
         """The rays `lanes` (M,) for what happens where they hit: origins and densities have done their work."""
         return Rays(

@@ -12,6 +12,9 @@ from ..maths.vectors import dot
 _DARK = 2.0**-8
 """What a light weighs where it should not shine at all, compared to where it does."""
 
+_EVERYWHERE = 2.0**60
+"""The size of what has none, in render space, whose largest distances are 2^40."""
+
 _LEAST = 2.0**-10
 """What the weakest light weighs at least, compared to the strongest."""
 
@@ -22,18 +25,25 @@ _AT_ONCE = 40_000
 class OnlyLight:
     """There is one light: no choice, and no number spent."""
 
-    def choose(self, p, u2):
+    minds_side = False
+
+    def choose(self, p, u2, n=None):
         """See `ByPower.choose`; the index is None."""
         return None, 1.0, u2
 
-    def probability(self, index, p):
+    def probability(self, index, p, n=None):
         """See `ByPower.probability`."""
         return 1.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ByPower:
-    """In proportion to power, wherever it is needed. cdf (M,) float64, see `maths.discrete`."""
+    """In proportion to power, wherever it is needed. cdf (M,) float64, see `maths.discrete`.
+
+    minds_side  whether it matters which way a surface faces
+    """
+
+    minds_side = False
 
     cdf: np.ndarray
     lower: np.ndarray
@@ -46,9 +56,10 @@ class ByPower:
         share = discrete.probabilities(cdf)
         return cls(cdf, (cdf - share).astype(np.float32), share.astype(np.float32))
 
-    def choose(self, p, u2):
+    def choose(self, p, u2, n=None):
         """A light for each point p (3, N): indices (N,), their probabilities (N,), and u2 (2, N) for the point on the light.
 
+        n (3, N) is the normal on the side that is to be lit; None: light counts from all sides.
         The first of u2 chooses, and its place within the interval of the chosen light goes on as a number of its own
         (Shirley 1990): strata hold across the parts of a light. Of its 24 bits log2(M) are spent.
         """
@@ -59,8 +70,8 @@ class ByPower:
         np.clip(stretched, 0, np.float32(ONE_MINUS_EPS32), out=u2[0])
         return index, probability, u2
 
-    def probability(self, index, p):
-        """The probability (N,) with which `choose` at p (3, N) returns the lights `index` (N,)."""
+    def probability(self, index, p, n=None):
+        """The probability (N,) with which `choose` at p (3, N), facing n (3, N), returns the lights `index` (N,)."""
         return self.share.take(index)
 
 
@@ -71,6 +82,8 @@ class ByPlace:
     table  what the lights weigh, see `weigh`; (M, 1), vectors (3, M, 1)
     """
 
+    minds_side = False
+
     table: Columns
 
     @classmethod
@@ -78,15 +91,15 @@ class ByPlace:
         """From `interfaces.Light.weight` as columns (M,) float64, power a number."""
         return cls(weight_table(lights, lights.radius2, (-1, 1)))
 
-    def choose(self, p, u2):
-        """See `ByPower.choose`."""
+    def choose(self, p, u2, n=None):
+        """See `ByPower.choose`; n does not count."""
         index, probability = np.empty(p.shape[1], np.intp), np.empty_like(p[0])
         for part in parts(p.shape[1], self.table.power.size):
             weights = self._weights(p[:, part])
             index[part], probability[part], u2[0, part] = pick(weights, u2[0, part])
         return index, probability, u2
 
-    def probability(self, index, p):
+    def probability(self, index, p, n=None):
         """See `ByPower.probability`."""
         probability = np.empty_like(p[0])
         for part in parts(p.shape[1], self.table.power.size):
@@ -106,22 +119,24 @@ def weight_table(lights, size2, shape):
         "power": lights.power / lights.power.max(),
         "nearness": lights.nearness,
         "radius2": lights.radius2,
+        # What is the same everywhere is on all sides.
+        "size": np.where(lights.nearness > 0, np.sqrt(size2), _EVERYWHERE),
     }
     if (lights.cos_edge > -1).any():
         table |= {
             "axis": lights.axis,
             "cos_edge": lights.cos_edge,
             "sin_edge": np.sqrt(1 - lights.cos_edge**2),
-            "size": np.sqrt(size2),
         }
     return Columns(**{name: np.float32(column).reshape(*column.shape[:-1], *shape) for name, column in table.items()})
 
 
-def weigh(k, p):
+def weigh(k, p, n=None):
     """The weights (M, N) at points p (3, N), and the squared distances; k is a `weight_table`, (M, 1) or (M, N).
 
     power / (nearness d^2 + radius2), times _DARK where a light does not shine: where the angle from its axis is more
-    than that of its edge and that under which its own size is seen together.
+    than that of its edge and that under which its own size is seen together. Where n (3, N) is given, also times the
+    cosine to it, of what the size allows: (d cos + size) / (d + size), at least _DARK.
     """
     away = p[:, None] - k.centre
     distance2 = dot(away, away)
@@ -136,6 +151,10 @@ def weigh(k, p):
         is_lit |= leg == 0
         # Not 0 in the dark: a light may leak over its edge, and all may be dark.
         weights *= np.float32(_DARK) + np.float32(1 - _DARK) * is_lit
+    if n is not None:
+        share = k.size - dot(away, n[:, None])
+        share /= np.sqrt(distance2) + (k.size + np.finfo(np.float32).tiny)
+        weights *= np.maximum(share, np.float32(_DARK), out=share)
     return weights, distance2
 
 

@@ -41,6 +41,8 @@ class ByTree:
     trail           (M,) int64: which child leads to it from there, two bits for each level, the first one lowest
     """
 
+    minds_side = True
+
     by_power: ByPower
     order: np.ndarray
     rank: np.ndarray
@@ -96,29 +98,31 @@ class ByTree:
             trail=trail,
         )
 
-    def choose(self, p, u2):
+    def choose(self, p, u2, n=None):
         """See `ByPower.choose`."""
         index, probability = np.empty(p.shape[1], np.intp), np.empty_like(p[0])
         for part in parts(p.shape[1], _TOP):
-            index[part], probability[part], u2[0, part] = self._choose(p[:, part], u2[0, part])
+            facing = None if n is None else n[:, part]
+            index[part], probability[part], u2[0, part] = self._choose(p[:, part], u2[0, part], facing)
         return index, probability, u2
 
-    def probability(self, index, p):
+    def probability(self, index, p, n=None):
         """See `ByPower.probability`."""
         probability = np.empty_like(p[0])
         for part in parts(p.shape[1], _TOP):
             place = self.rank.take(index[part])
-            node, share, _ = self._descend(p[:, part], np.zeros_like(p[0, part]), place)
+            facing = None if n is None else n[:, part]
+            node, share, _ = self._descend(p[:, part], np.zeros_like(p[0, part]), place, facing)
             probability[part] = self._mixed(place, node, share)
         return probability
 
-    def _choose(self, p, u1):
+    def _choose(self, p, u1, n):
         blind = np.nonzero(u1 < _BY_POWER)[0]
         place = np.full(u1.size, -1)
         u = (u1 - np.float32(_BY_POWER)) * np.float32(1 / (1 - _BY_POWER))
         blind_u = u1.take(blind) * np.float32(1 / _BY_POWER)
         place[blind] = np.searchsorted(self.by_power.cdf, blind_u, side="right")
-        node, share, u = self._descend(p, u, place)
+        node, share, u = self._descend(p, u, place, n)
         # Within the node by power, in float64: single lights may have the last few bits of the distribution.
         u = self.low.take(node) + u * self.total.take(node)
         u[blind] = blind_u
@@ -134,16 +138,17 @@ class ByTree:
         by_place = share * (by_power / self.total.take(node).astype(np.float32))
         return np.float32(_BY_POWER) * by_power + np.float32(1 - _BY_POWER) * by_place
 
-    def _descend(self, p, u, place):
+    def _descend(self, p, u, place, n):
         """The last node (N,), its probability and what is left of u (N,): towards the lights at `place` (N,), -1: as u chooses."""
-        weights, distance2 = weigh(self.top, p)
+        weights, distance2 = weigh(self.top, p, n)
         chosen, probability, u = _follow(weights, u, place, self.first_choice.take(place))
         node = self.top_nodes.take(chosen)
         lanes = np.nonzero(at(distance2, chosen) < self.reach2.take(node))[0]
         level = 0
         while lanes.size:
             row = self.row.take(node.take(lanes))
-            weights, distance2 = weigh(self.table.take(row), p.take(lanes, axis=1))
+            facing = None if n is None else n.take(lanes, axis=1)
+            weights, distance2 = weigh(self.table.take(row), p.take(lanes, axis=1), facing)
             towards = place.take(lanes)
             chosen, share, u[lanes] = _follow(weights, u.take(lanes), towards, (self.trail.take(towards) >> level) & (WIDTH - 1))
             probability[lanes] *= share

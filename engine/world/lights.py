@@ -121,6 +121,11 @@ class Lights:
         """Whether there is nothing to sample."""
         return not self.groups
 
+    def chance(self, index, rays, lanes):
+        """The probability (M,) with which shadow rays from where `rays` came from are sent to lights `index` (M,), for `lanes` (M,)."""
+        facing = rays.facing
+        return self.choice.probability(index, rays.o.take(lanes, axis=1), facing if facing is None else facing.take(lanes, axis=1))
+
     def rival(self, index, pdf):
         """The density with which scattered rays look for lights `index`, where they are sent with the density `pdf` (N,)."""
         return np.where((index < self.lamps) & (pdf < SHARP), np.float32(0), pdf) if self.few_sharp else pdf

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 from glanz.engine import AreaLight, Lambert, Material, Mirror, Phong, PointLight, SpotLight
+from glanz.engine.wavefront import direct, emission
+from glanz.engine.wavefront.records import Rays
 from glanz.engine.world import lamp_search, light_tree_choice
 from glanz.engine.world.light_choice import weigh
 from glanz.engine.world.light_tree_choice import ByTree
@@ -55,7 +57,7 @@ def test_a_thousand_bulbs_give_the_sum_of_their_closed_forms(point):
     "mutant",
     [
         (ByTree, "_mixed", lambda self, place, node, share: np.float32(1.1) * mixed(self, place, node, share)),
-        (light_tree_choice, "weigh", lambda k, p: (weigh(k, p + np.float32(300))[0], weigh(k, p)[1])),
+        (light_tree_choice, "weigh", lambda k, p, n: (weigh(k, p + np.float32(300), n)[0], weigh(k, p, n)[1])),
     ],
     ids=["a tenth too probable", "weighed for another place"],
 )
@@ -163,3 +165,34 @@ def test_gloss_catches_one_side_that_does_not_know_what_the_other_leaves(monkeyp
         patch.setattr(Lights, way, mutant)
         with pytest.raises(AssertionError):
             check_gloss(monkeypatch, 8.0)
+
+
+def check_sides(monkeypatch):
+    """A ball of 80 triangles that glow beside a tilted wall and floor: both ways together, and shadow rays alone."""
+    ball = h.thing(h.icosphere(1, 0.5, (0, 0, 0.6)), h.lambert(0, "lamp", 2.0))
+    walls = [h.thing(h.quad(x=(3, 0, 0), y=(0, 3, 0), name="floor")), h.thing(h.quad((0, 0.9, 0.5), (3, 0, 0), (0, 0.5, 2), name="wall"))]
+    scene = h.scene([ball, *walls], camera=h.PerspectiveCamera.look_at((0.3, -3, 1.2), (0, 0, 0.5)))
+    settings = h.settings(width=24, height=24, samples=256, max_depth=1)
+    both = h.pixels(scene, settings)[0].astype(float)
+    with monkeypatch.context() as patch:
+        patch.setattr(direct, "power_heuristic", lambda pdf, other: np.float32(1))
+        patch.setattr(emission, "power_heuristic", lambda pdf, other: np.float32(0))
+        alone = h.pixels(scene, h.replaced(settings, seed=1))[0].astype(float)
+    lit = (alone > 0) & (alone < 1)
+    assert lit.sum() > 100
+    assert h.mean_is(both[lit] / alone[lit], 1.0, floor=3e-3)
+
+
+def test_rays_know_which_way_the_surface_faced_that_they_left(monkeypatch):
+    """E14: weights sum to one also where the choice of a light depends on the side; detects 2 %."""
+    plan = h.plan_of(gallery(40, h.lambert(0.5)), h.settings())
+    assert direct.remember_side in plan.on_leaving
+    assert h.plan_of(gallery(30, h.lambert(0.5)), h.settings()).on_leaving == ()
+    check_sides(monkeypatch)
+
+
+def test_sides_catch_rays_that_have_forgotten_them(monkeypatch):
+    with monkeypatch.context() as patch:
+        patch.setattr(Rays, "facing", property(lambda self: -self.carried.facing))
+        with pytest.raises(AssertionError):
+            check_sides(monkeypatch)

@@ -59,15 +59,16 @@ def choice_of(lights, objects):
     return world, world.lights.choice, sum(group.count for group in world.lights.groups)
 
 
-def check_choice(name):
+def check_choice(name, normal=None):
     lights, objects, kind = CHOICES[name]
     world, choice, count = choice_of(lights, objects)
     assert isinstance(choice, kind)
     n = 100_000
     for seed, place in enumerate(PLACES):
         p = np.repeat(world.frame.points(np.array(place)[:, None]).astype(np.float32), n, 1)
-        index, probability, u2 = choice.choose(p, h.uniform(seed, n, np.float32))
-        told = choice.probability(np.arange(count), p[:, :count])
+        facing = None if normal is None else np.repeat(normal, n, 1)
+        index, probability, u2 = choice.choose(p, h.uniform(seed, n, np.float32), facing)
+        told = choice.probability(np.arange(count), p[:, :count], None if normal is None else facing[:, :count])
         assert told.min() > 0
         assert told.astype(float).sum() == pytest.approx(1, abs=1e-5)
         assert h.same_bits(probability, told[index])
@@ -88,13 +89,34 @@ def test_lights_are_chosen_with_the_probability_that_is_told(name):
     check_choice(name)
 
 
+@pytest.mark.parametrize("name", [name for name, (_, _, kind) in CHOICES.items() if kind is ByTree])
+def test_lights_are_chosen_for_surfaces_that_face_one_side(name):
+    """B9 once more; lights below the horizon weigh little, but something."""
+    check_choice(name, h.unit(0.3, -0.5, 0.6, dtype=np.float32))
+
+
+def test_a_side_without_light_is_left_to_others():
+    """Of bulbs above and below a point, those above are chosen 50 times as often, and suns are chosen on every side."""
+    _, choice, count = choice_of([*bulbs(200, lambda i: 1.0), SunLight(irradiance=(50.0,) * 3)], [])
+    p = np.repeat(choice.top.centre[:, :1, 0], count, 1)
+    p[2] = 0
+    up, down = (choice.probability(np.arange(count), p, np.repeat(h.unit(0, 0, z, dtype=np.float32), count, 1)) for z in (1, -1))
+    # The last of all is the sun, for bulbs come first.
+    assert up[-1] > 0.01
+    assert down[-1] > 0.01
+    assert up.astype(float).sum() == pytest.approx(1, abs=1e-5)
+    ratio = np.sort(up[:-1] / down[:-1])
+    assert ratio[0] < 1 / 4
+    assert ratio[-1] > 4
+
+
 def _told(cls, change):
     tell = cls.probability
-    return cls, "probability", lambda self, index, p: tell(self, index, change(p))
+    return cls, "probability", lambda self, index, p, n=None: tell(self, index, change(p), n)
 
 
-def _leaf_by_index(self, p, u1, choose=ByTree._choose):
-    index, probability, u = choose(self, p, u1)
+def _leaf_by_index(self, p, u1, n, choose=ByTree._choose):
+    index, probability, u = choose(self, p, u1, n)
     return self.rank.take(index), probability, u
 
 
