@@ -93,8 +93,8 @@ def diffuse(colour):
 
 
 def translucent(colour):
-    """Ideal diffuse transmission of `colour` (r, g, b)."""
-    return Closure((LambertTransmission(tuple(colour)),))
+    """Ideal diffuse transmission of `colour`."""
+    return Closure((LambertTransmission(colour),))
 
 
 def glossy(colour, roughness):

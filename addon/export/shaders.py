@@ -61,7 +61,7 @@ def _diffuse(reader, node):
 
 def _translucent(reader, node):
     _note_normal(reader, node)
-    return closure.translucent(reader.colour(node, "Color"))
+    return closure.translucent(share_of(reader, node, "Color"))
 
 
 def _glossy(reader, node):

@@ -31,8 +31,13 @@ def averaged(value):
 
 
 def brightest(value):
-    """A lobe or material with each texture's largest value in its place; no lobe reflects more than this."""
+    """A lobe or material with each texture's largest value in its place."""
     return _replaced(value, lambda t: np.maximum(t.bounds()[1], 0))
+
+
+def most_reflecting(value):
+    """A lobe or material with the largest colours and the least numbers of its textures; no lobe reflects more than this."""
+    return dataclasses.replace(brightest(value), **{n: getattr(darkest(value), n) for n in textures_of(value) if is_number(value, n)})
 
 
 def darkest(value):

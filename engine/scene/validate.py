@@ -11,7 +11,7 @@ from ..interfaces import is_straight
 from ..registry import BSDFS, CAMERAS, FILTERS, INTEGRATORS, LIGHTS, PASSES, SAMPLERS
 from .environment import EnvironmentMap
 from .medium import Medium
-from .textured import averaged, brightest, coordinates_of, darkest, is_texture, material_textures, textures_of, with_inner
+from .textured import averaged, brightest, coordinates_of, darkest, is_texture, material_textures, most_reflecting, textures_of, with_inner
 
 
 def validate(scene, settings):
@@ -84,7 +84,7 @@ def _check_material(material):
         for coordinates in coordinates_of(texture):
             coordinates.check(material.name)
     # Between the least and the largest values of its textures a material must be allowed, whichever meet at a point.
-    for extreme in (brightest, darkest) if material_textures(material) else (lambda value: value,):
+    for extreme in (brightest, most_reflecting, darkest) if material_textures(material) else (lambda value: value,):
         _check_constant(dataclasses.replace(extreme(material), lobes=tuple(map(extreme, material.lobes))))
 
 

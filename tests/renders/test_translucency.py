@@ -8,6 +8,7 @@ import pytest
 from glanz.engine import (
     AreaLight,
     Dielectric,
+    ImageTexture,
     Lambert,
     LambertTransmission,
     Material,
@@ -19,11 +20,12 @@ from glanz.engine import (
     PointLight,
     SunLight,
 )
+from glanz.engine.maths.mipmaps import decoding_table
 from glanz.engine.wavefront import direct
 from glanz.engine.wavefront.direct import shadow_rays_in_front, shadow_rays_on_either_side
 from glanz.engine.world.accel import Accel
 from glanz.engine.world.materials import Reflection, TwoSided
-from glanz.tests import helpers as h
+from glanz.tests import helpers as h, textured
 from glanz.tests.renders.test_two_ways import image_of
 
 PAPER = Material(name="paper", lobes=(LambertTransmission((0.9, 0.6, 0.3)),))
@@ -130,6 +132,18 @@ def test_a_white_sheet_vanishes_in_white_light(material):
     for mesh in (h.quad(), h.box((-1, -1, -1))):
         image = h.pixels(h.scene([h.thing(mesh, material)], world=1.0), h.settings(width=16, height=16, samples=16, max_depth=64))
         assert h.mean_is(image[0], 1.0, floor=1e-3)
+
+
+def test_a_leaf_shows_its_picture_against_the_light():
+    """Textures tint what passes, texel by texel: under an even sky of 1 a sheet shows its transmittance."""
+    square = textured.with_uvs(h.quad((0, 0, 0), (2, 0, 0), (0, 2, 0)))
+    texture = ImageTexture(textured.PICTURE, extension="extend", is_smooth=False)
+    for lobe in (LambertTransmission(texture), PhongTransmission(texture, 0.0)):
+        scene = textured.facing(square, Material(name="leaf", lobes=(lobe,)), world=1.0)
+        image = h.pixels(scene, h.settings(width=16, height=8, samples=256, max_depth=1))
+        texels = decoding_table(True).take(textured.PICTURE.pixels)[:, ::-1]
+        np.testing.assert_allclose(image, texels, rtol=0, atol=2e-5 if type(lobe) is LambertTransmission else 0.2)
+        assert image.mean() == pytest.approx(texels.mean(), rel=5e-3)
 
 
 @pytest.mark.parametrize("degrees", [0, 40, 70])

@@ -4,7 +4,7 @@ import bpy
 import numpy as np
 import pytest
 
-from glanz.engine import CheckerTexture, GradientTexture, ImageTexture, Lambert, LinearTexture, NoiseTexture, Phong
+from glanz.engine import CheckerTexture, GradientTexture, ImageTexture, Lambert, LambertTransmission, LinearTexture, NoiseTexture, Phong
 from glanz.tests.addon import blender
 
 PIXELS = np.random.default_rng(1).random((4, 6, 4)).astype(np.float32)
@@ -47,6 +47,16 @@ def exported(material, ob=None):
     ob.data.materials.append(material)
     scene, warnings = blender.export()
     return scene.objects[0], warnings
+
+
+def test_a_picture_on_a_leaf_tints_what_passes():
+    material, _, node = textured("Image", shader="ShaderNodeBsdfTranslucent")
+    node.image = new_image()
+    o, warnings = exported(material, with_layers(blender.add_plane(), "UVMap"))
+    (lobe,) = o.materials[0].lobes
+    assert type(lobe) is LambertTransmission
+    assert type(lobe.transmittance) is ImageTexture
+    assert warnings == ()
 
 
 def reflectance(material, ob=None):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from glanz.engine import Phong, PhongLecture, SceneError
+from glanz.engine import CheckerTexture, Coordinates, GradientTexture, Phong, PhongLecture, SceneError
 from glanz.engine.maths.vectors import dot
 from glanz.engine.scene.validate import validate
 from glanz.engine.scene.values import Material
@@ -88,6 +88,19 @@ def test_materials_may_not_reflect_more_than_arrives():
             else:
                 with pytest.raises(SceneError, match="material 'gloss' reflects"):
                     validate(scene, h.settings())
+
+
+@pytest.mark.parametrize(("k_s", "is_allowed"), [(0.5, True), (0.6, False)])
+def test_a_textured_lobe_is_held_to_where_it_reflects_most(k_s, is_allowed):
+    """Brightest where the exponent is least: k_s up to 1/2 for an exponent that is 0 somewhere, whatever it is elsewhere."""
+    ramp = GradientTexture(coordinates=Coordinates(matrix=np.eye(4)))
+    colour = CheckerTexture(coordinates=Coordinates(matrix=np.eye(4)), odd=(0.0,) * 3, even=(k_s,) * 3)
+    scene = h.scene([h.thing(h.quad(), Material(name="gloss", lobes=(PhongLecture(colour, ramp),)))])
+    if is_allowed:
+        validate(scene, h.settings())
+    else:
+        with pytest.raises(SceneError, match="material 'gloss' reflects"):
+            validate(scene, h.settings())
 
 
 @pytest.mark.parametrize("exponent", [-1.0, -2.0, float("nan")])
