@@ -30,6 +30,7 @@ from .registry import FILTERS, INTEGRATORS, PASSES, SAMPLERS, TEXTURES
 from .rendering import Image, Progress, Tile, metadata, render, render_image
 from .requirements import Requirements
 from .scene import Bitmap, Coordinates, EnvironmentMap, Lens, Material, Medium, Mesh, Object, Scene, Settings, World
+from .scene.relief import BumpMap, NormalMap
 from .textures.checker import CheckerTexture
 from .textures.gradient import GradientTexture
 from .textures.image import ImageTexture
@@ -47,6 +48,7 @@ __all__ = [
     "AreaLight",
     "Bitmap",
     "BlinnPhong",
+    "BumpMap",
     "CheckerTexture",
     "Coordinates",
     "CosineSpotLight",
@@ -66,6 +68,7 @@ __all__ = [
     "Mesh",
     "Mirror",
     "NoiseTexture",
+    "NormalMap",
     "Object",
     "OrthographicCamera",
     "PanoramaCamera",

@@ -22,6 +22,7 @@ TINTED_SHADOWS = "tinted shadows"
 DISPERSION = "dispersion"
 TEXTURES = "textures"
 FOOTPRINTS = "footprints"
+RELIEF = "relief"
 
 MEANING = {
     GEOMETRY: "triangles to intersect",
@@ -43,6 +44,7 @@ MEANING = {
     DISPERSION: "indices of refraction that depend on the wavelength",
     TEXTURES: "parameters of materials that vary over a surface",
     FOOTPRINTS: "textures with detail, averaged over what a ray stands for",
+    RELIEF: "shading normals bent by textures",
 }
 
 

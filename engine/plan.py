@@ -15,7 +15,8 @@ from .wavefront.clip import clip_row, start_in_range, to_the_end_of_range
 from .wavefront.cones import (
     CARRIED,
     aim_cones,
-    footprints_at_time,
+    edges_at_rest,
+    edges_at_time,
     footprints_of_cones,
     landing_with_cones,
     leave_with_cones,
@@ -38,6 +39,7 @@ from .wavefront.motion import (
 )
 from .wavefront.numbers import Numbers, one_of_the_lobes, only_lobe
 from .wavefront.passing import travel_through, unblocked_through
+from .wavefront.relief import bend_normals
 from .wavefront.texturing import fill_in_textures
 from .wavefront.tiles import EvenTile
 from .wavefront.visibility import all_of_it, all_the_way, closest, interact_at_rest, occluded, seen_at_rest, travel, unblocked
@@ -68,7 +70,7 @@ class Plan:
     on_rays_beyond     the same beyond a surface that rays have passed, see `wavefront.passing`
     on_passing         stages (plan, rays, surface) that renew what rays carry when they pass a surface straight on
     shine              the emission (plan, rays, hits, lanes, L) of what rays met, see `wavefront.emission`
-    footprints         what rays stand for on triangles (plan, carried, prim, wo, t), see `wavefront.cones`
+    footprints, edges  what rays stand for on triangles (plan, rays, prim, wo, t, lanes), and their edges, see `wavefront.cones`
     interact           the surface (plan, rays, hits) that a batch met
     adjust_surface     stages (plan, rays, surface) -> surface: what changes its normals
     adjust_reflection  stages (plan, rays, surface, reflection) -> reflection: what changes its lobes
@@ -105,6 +107,7 @@ class Plan:
     on_passing: tuple
     shine: object
     footprints: object
+    edges: object
     interact: object
     adjust_surface: tuple
     adjust_reflection: tuple
@@ -199,9 +202,10 @@ class Plan:
             on_rays_beyond=tuple(_BEYOND.get(stage, stage) for stage in on_rays),
             on_passing=(media.pass_boundary,) if has_media else (),
             shine=textured_shine if world.materials.glowing else even_shine,
-            footprints=(footprints_at_time if world.movers else footprints_of_cones) if has_cones else no_footprints,
+            footprints=footprints_of_cones if has_cones else no_footprints,
+            edges=edges_at_time if world.movers else edges_at_rest,
             interact=landing_with_cones(interact) if has_cones else interact,
-            adjust_surface=(),
+            adjust_surface=(bend_normals,) if needs.RELIEF in requirements and world.materials.relief else (),
             adjust_reflection=(*((fill_in_textures,) if world.materials.textured else ()), *adjust_reflection),
             on_surface=integrator.on_surface if can_sample else (),
             on_leaving=(

@@ -74,6 +74,10 @@ class Requirements:
                         ask(needs.TINTED_SHADOWS, material.name)
                 if any(brightest(material).emission):
                     ask(needs.EMISSIVE_MESHES, o.name)
+                if material.relief:
+                    # Heights are compared as far apart as a ray is wide.
+                    ask(needs.RELIEF, material.name)
+                    ask(needs.FOOTPRINTS, material.name)
                 for texture in material_textures(material):
                     ask(needs.TEXTURES, material.name)
                     if settings.filter_textures and any(part.has_detail for part in with_inner(texture)):

@@ -17,13 +17,14 @@ class Closure:
 
     Colours are constants or textures, see `colours`. `alpha` cuts out the lobes where it is a texture: light goes straight on
     where it is 0 (a constant alpha is part of the lobes). `environments` are `EnvironmentMap` values, which add to the emission of
-    a world.
+    a world. `reliefs` are the different reliefs, each a tuple, of its shaders.
     """
 
     lobes: tuple = ()
     emission: object = (0.0, 0.0, 0.0)
     environments: tuple = ()
     alpha: object = 1.0
+    reliefs: tuple = ()
 
     def __add__(self, other):
         return Closure(
@@ -31,6 +32,7 @@ class Closure:
             added(self.emission, other.emission),
             self.environments + other.environments,
             self.alpha if is_texture(self.alpha) else other.alpha,
+            tuple(dict.fromkeys(self.reliefs + other.reliefs)),
         )
 
     def scaled(self, factor):

@@ -45,7 +45,10 @@ def export_material(material, findings, bitmaps=None):
     if not getattr(material, "use_transparent_shadow", True) and any(isinstance(lobe, Transparent) for lobe in surface.lobes):
         findings.note("Transparent Shadows is off, but transparent surfaces let shadow rays pass all the same", owner)
     checked = _checked(material.name, owner, surface, findings)
-    return replace(checked, lobes=with_dispersion(checked.lobes, material), medium=medium)
+    relief = next(filter(None, surface.reliefs), ())
+    if len(surface.reliefs) > 1:
+        findings.note("its shaders have different normals, all are rendered with those of the first that is bent", owner)
+    return replace(checked, lobes=with_dispersion(checked.lobes, material), medium=medium, relief=relief)
 
 
 def is_volume_only(material):

@@ -1,11 +1,14 @@
 """Blender's shader nodes as closures: to support another node is to add a function and a row of the table."""
 
+from dataclasses import replace
+
 from . import closure
 from .closure import Closure
 from .colours import cut, inverted, is_texture
 from .environment import export_environment
 from .nodes import Reader, input_by_identifier
 from .principled import principled_lobes
+from .relief import relief_of
 from .textures import colour_of, number_of
 
 _WHITE = (1.0, 1.0, 1.0)
@@ -47,35 +50,31 @@ def share_of(reader, node, identifier):
     return colour
 
 
-def _note_normal(reader, node):
-    if reader.is_linked(node, "Normal"):
-        reader.note("bump and normal maps are left out")
+def _bent(reader, node, shader):
+    """The closure of a shader node with the relief that bends its normals."""
+    return replace(shader, reliefs=(relief_of(reader, node),))
 
 
 def _diffuse(reader, node):
-    _note_normal(reader, node)
     if reader.number(node, "Roughness") > 0:
         reader.note("Roughness of Diffuse BSDF is left out")
-    return closure.diffuse(share_of(reader, node, "Color"))
+    return _bent(reader, node, closure.diffuse(share_of(reader, node, "Color")))
 
 
 def _translucent(reader, node):
-    _note_normal(reader, node)
-    return closure.translucent(share_of(reader, node, "Color"))
+    return _bent(reader, node, closure.translucent(share_of(reader, node, "Color")))
 
 
 def _glossy(reader, node):
-    _note_normal(reader, node)
     if reader.number(node, "Anisotropy") != 0:
         reader.note("Anisotropy of Glossy BSDF is left out")
-    return closure.glossy(share_of(reader, node, "Color"), reader.number(node, "Roughness"))
+    return _bent(reader, node, closure.glossy(share_of(reader, node, "Color"), reader.number(node, "Roughness")))
 
 
 def _glass(reader, node):
-    _note_normal(reader, node)
     if reader.is_linked(node, "Roughness") or reader.number(node, "Roughness") > 0:
         reader.note("Roughness of Glass BSDF is left out, it is rendered smooth")
-    return closure.glass(share_of(reader, node, "Color"), reader.number(node, "IOR", 1.5))
+    return _bent(reader, node, closure.glass(share_of(reader, node, "Color"), reader.number(node, "IOR", 1.5)))
 
 
 def _emission(reader, node):
@@ -142,7 +141,6 @@ _LEFT_OUT = {
 
 
 def _principled(reader, node):
-    _note_normal(reader, node)
     for identifier, note in _LEFT_OUT.items():
         if reader.is_linked(node, identifier) or reader.number(node, identifier):
             reader.note(note)
@@ -162,7 +160,7 @@ def _principled(reader, node):
         transmission,
     )
     shine = closure.emission(colour_of(reader, node, "Emission Color"), reader.number(node, "Emission Strength"))
-    return _cut_out(reader, number_of(reader, node, "Alpha", 1.0), Closure(lobes, shine.emission))
+    return _cut_out(reader, number_of(reader, node, "Alpha", 1.0), _bent(reader, node, Closure(lobes, shine.emission)))
 
 
 _TABLE = {

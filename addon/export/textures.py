@@ -11,17 +11,17 @@ _BLACK, _WHITE = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
 
 def colour_of(reader, node, identifier, default=_BLACK):
     """The colour of an input: a constant (r, g, b), or a texture where one feeds it and `reader` reads textures."""
-    found = _texture_behind(reader, node, identifier)
+    found = texture_behind(reader, node, identifier)
     return reader.colour(node, identifier, default) if found is None else found
 
 
 def number_of(reader, node, identifier, default=0.0):
     """The number of an input: a constant, or a texture where one feeds it and `reader` reads textures."""
-    found = _texture_behind(reader, node, identifier)
+    found = texture_behind(reader, node, identifier)
     return reader.number(node, identifier, default) if found is None else found
 
 
-def _texture_behind(reader, node, identifier):
+def texture_behind(reader, node, identifier):
     """The texture that feeds an input, or None."""
     socket = input_by_identifier(node, identifier)
     if socket is None or reader.bitmaps is None:

@@ -8,6 +8,7 @@ import numpy as np
 from ..errors import FileError, GlanzError
 from ..registry import BSDFS, CAMERAS, LIGHTS, TEXTURES
 from ..scene import Bitmap, Coordinates, EnvironmentMap, Lens, Material, Medium, Mesh, Object, Scene, Settings, World
+from ..scene.relief import RELIEFS
 from ..textures.linear import LinearTexture
 
 SHARED = (Mesh, Material, Bitmap)
@@ -15,7 +16,7 @@ SHARED = (Mesh, Material, Bitmap)
 PARTS = {
     Scene: {"camera": CAMERAS, "objects": [Object], "lights": [LIGHTS], "world": World},
     Object: {"mesh": Mesh, "materials": [Material]},
-    Material: {"lobes": [BSDFS], "medium": Medium},
+    Material: {"lobes": [BSDFS], "relief": [RELIEFS], "medium": Medium},
     World: {"environment": EnvironmentMap},
     LinearTexture: {"textures": [TEXTURES]},
 }
@@ -25,7 +26,7 @@ PARTS = {
 def types():
     """{name in the file: type} of all that may stand in a file; plug-ins are named `light/point` by their keys."""
     values = (Scene, World, EnvironmentMap, Object, Mesh, Material, Medium, Lens, Settings, Bitmap, Coordinates)
-    plain = {cls.__name__: cls for cls in values}
+    plain = {cls.__name__: cls for cls in values} | RELIEFS
     plugins = {"bsdf": BSDFS, "light": LIGHTS, "camera": CAMERAS, "texture": TEXTURES}
     return plain | {f"{kind}/{key}": cls for kind, registry in plugins.items() for key, cls in registry.items()}
 
@@ -132,7 +133,7 @@ def _check_field(cls, field, value):
     if part is not None:
         fits = isinstance(value, tuple) and all(map(_fits_type(part[0]), value)) if isinstance(part, list) else _fits_type(part)(value)
     elif type(value) in TEXTURES.values():
-        fits = cls in BSDFS.values() or (cls is Material and field.name in ("emission", "alpha"))
+        fits = cls in BSDFS.values() or cls in RELIEFS.values() or (cls is Material and field.name in ("emission", "alpha"))
     elif dataclasses.is_dataclass(field.default):
         fits = type(value) is type(field.default)
     elif field.default is not dataclasses.MISSING:

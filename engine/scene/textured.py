@@ -10,6 +10,7 @@ import numpy as np
 from ..constants import LUMINANCE
 from ..registry import TEXTURES
 from .coordinates import Coordinates
+from .relief import NormalMap
 
 _LEAST_SHARE = 2.0**-10
 """A texture is at least so large on average, compared to its largest value: what is rarely bright must be found as well."""
@@ -74,5 +75,11 @@ def coordinates_of(texture):
 
 
 def material_textures(material):
-    """All textures of a material's lobes, emission and alpha, without inner ones."""
-    return [t for value in (*material.lobes, material) for t in textures_of(value).values()]
+    """All textures of a material's lobes, emission, alpha and relief, without inner ones."""
+    return [t for value in (*material.lobes, material, *material.relief) for t in textures_of(value).values()]
+
+
+def attributes_of(material):
+    """What a material's textures and normal maps ask of meshes, see `Coordinates.attribute`."""
+    found = [c.attribute for texture in material_textures(material) for c in coordinates_of(texture)]
+    return frozenset([*found, *(("uv", relief.layer) for relief in material.relief if isinstance(relief, NormalMap))])

@@ -11,6 +11,7 @@ from ..interfaces import is_straight
 from ..registry import BSDFS, CAMERAS, FILTERS, INTEGRATORS, LIGHTS, PASSES, SAMPLERS
 from .environment import EnvironmentMap
 from .medium import Medium
+from .relief import RELIEFS
 from .textured import averaged, brightest, coordinates_of, darkest, is_texture, material_textures, most_reflecting, textures_of, with_inner
 
 
@@ -76,6 +77,10 @@ def _check_material(material):
             raise SceneError(f"material '{material.name}': {lobe.key} {name} is a texture, allowed: a constant")
     if not is_texture(material.alpha) and not 0 <= material.alpha <= 1:
         raise SceneError(f"material '{material.name}': alpha is {material.alpha}, allowed: 0 to 1")
+    for relief in material.relief:
+        if type(relief) not in RELIEFS.values() or not is_texture(relief.texture):
+            raise SceneError(f"material '{material.name}': {type(relief).__name__} is not a relief, or has no texture")
+        relief.check(material.name)
     if is_texture(material.ambient):
         raise SceneError(f"material '{material.name}': ambient is a texture, allowed: three finite numbers from 0 on")
     for texture in material_textures(material):

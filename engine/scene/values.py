@@ -14,7 +14,7 @@ from ..maths.normals import vertex_normals
 from ..maths.poses import between
 from .medium import Medium
 from .motion import no_motion, settle
-from .textured import coordinates_of, is_texture, material_textures
+from .textured import attributes_of, is_texture
 
 
 def _array(owner, name, dtype, shape):
@@ -147,6 +147,7 @@ class Material:
               lobes make, not what is emitted. A texture beyond [0, 1] is cut off
     Emission, alpha and any parameter of a lobe may be a texture.
     ambient   k_a of the lecture's illumination model, the share of each light that arrives everywhere; no other model knows it
+    relief    `NormalMap` and `BumpMap` values, which bend shading normals one after the other
     medium    the `Medium` behind surfaces that let light pass; None: nothing is known of it, and nothing is absorbed
     """
 
@@ -156,9 +157,11 @@ class Material:
     ambient: tuple = (0.0, 0.0, 0.0)
     alpha: float = 1.0
     medium: Medium | None = None
+    relief: tuple = ()
 
     def __post_init__(self):
         object.__setattr__(self, "lobes", tuple(self.lobes))
+        object.__setattr__(self, "relief", tuple(self.relief))
         for name in ("emission", "ambient"):
             if not is_texture(getattr(self, name)):
                 object.__setattr__(self, name, tuple(float(c) for c in getattr(self, name)))
@@ -166,7 +169,7 @@ class Material:
     @property
     def attributes(self):
         """What its textures are looked up at: a set of `Coordinates.attribute`."""
-        return frozenset(c.attribute for texture in material_textures(self) for c in coordinates_of(texture))
+        return attributes_of(self)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -65,22 +65,25 @@ def leave_with_cones(plan, rays, surface, scattered):
     del scattered.carried.extent
 
 
-def footprints_of_cones(plan, carried, prim, wo, t=None):
-    """What the cones of rays cut out of triangles `prim` (N,), see `world.texturing.footprints`; t (N,) is how far away, None: landed."""
-    e1, e2 = plan.world.triangles.shape[3:9].take(prim, axis=1).reshape(2, 3, -1)
-    return footprints(e1, e2, wo, _width(carried, t))
+def edges_at_rest(plan, carried, prim):
+    """The edges, two (3, N), of triangles `prim` (N,), render space; `carried` is what the rays carry that met them."""
+    return plan.world.triangles.shape[3:9].take(prim, axis=1).reshape(2, 3, -1)
 
 
-def footprints_at_time(plan, carried, prim, wo, t=None):
+def edges_at_time(plan, carried, prim):
     """The same where triangles may move."""
-    movers = plan.world.movers
-    e1, e2 = edges = plan.world.triangles.shape[3:9].take(prim, axis=1).reshape(2, 3, -1)
+    edges, movers = edges_at_rest(plan, carried, prim), plan.world.movers
     lanes = np.nonzero(prim >= movers.first)[0]
     if lanes.size:
         pose = movers.poses.at(movers.owner.take(prim.take(lanes) - movers.first), carried.time.take(lanes))
         for e in edges:
             e[:, lanes] = pose.vectors(e.take(lanes, axis=1))
-    return footprints(e1, e2, wo, _width(carried, t))
+    return edges
+
+
+def footprints_of_cones(plan, carried, prim, wo, t=None):
+    """What the cones of rays cut out of triangles `prim` (N,), see `world.texturing.footprints`; t (N,) is how far away, None: landed."""
+    return footprints(*plan.edges(plan, carried, prim), wo, _width(carried, t))
 
 
 def _width(carried, t):

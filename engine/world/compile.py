@@ -167,7 +167,7 @@ def compile_world(
     shines = has_environment and scene.world.environment is not None and scene.world.environment.gives_light
     environment = Environment.of(scene.world) if shines else None
     passing = passing_of(materials) if passing_of else None
-    attributes, lost = compile_attributes(parts, keep, material, table.attributes(passing.cutouts if passing else {}))
+    attributes, lost = compile_attributes(parts, keep, material, table.wanted)
     glow = TexturedGlow(table.glowing, material, attributes) if table.glowing else EVEN
     return CompiledWorld(
         frame=frame,

@@ -9,7 +9,7 @@ from ..constants import INV_PI, LUMINANCE
 from ..maths.frames import to_world
 from ..maths.vectors import dot
 from ..maths.warps import square_to_uniform_hemisphere
-from ..scene.textured import averaged, coordinates_of, is_number, textures_of
+from ..scene.textured import averaged, is_number, textures_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +43,8 @@ class Materials:
     kind        `Reflection`, or `TwoSided` where a lobe with a width transmits
     textured    {row: the `Textured` columns of that material}
     glowing     {row: the texture that is the emission of that material}
+    relief      {row: the reliefs of that material}
+    wanted      {attribute of meshes: rows of the materials whose textures are looked up there}
     Where there is a texture, the tables hold its average.
     """
 
@@ -55,6 +57,8 @@ class Materials:
     kind: type
     textured: dict
     glowing: dict
+    relief: dict
+    wanted: dict
 
     @classmethod
     def of(cls, materials, bsdfs, without=()):
@@ -76,17 +80,14 @@ class Materials:
         emission, ambient = (_colours(getattr(averaged(m), name) for m in materials) for name in ("emission", "ambient"))
         kind = TwoSided if any(bsdf.transmits and not bsdf.is_specular for bsdf in bsdfs) else Reflection
         glowing = {row: textures_of(m)["emission"] for row, m in enumerate(materials) if "emission" in textures_of(m)}
+        relief = {row: m.relief for row, m in enumerate(materials) if m.relief}
+        wanted = {}
+        for row, material in enumerate(materials):
+            for attribute in material.attributes:
+                wanted.setdefault(attribute, set()).add(row)
         shine = emission.copy()
         shine[:, list(glowing)] = 1
-        return cls(tuple(lobes), _thresholds(shares), shares, emission, shine, ambient, kind, textured, glowing)
-
-    def attributes(self, cutouts):
-        """{attribute of meshes: rows of the materials whose textures are looked up there}, those of {row: alpha} as well."""
-        found, own = {}, ((row, t.texture) for row, ts in self.textured.items() for t in ts)
-        for row, texture in (*own, *self.glowing.items(), *cutouts.items()):
-            for coordinates in coordinates_of(texture):
-                found.setdefault(coordinates.attribute, set()).add(row)
-        return found
+        return cls(tuple(lobes), _thresholds(shares), shares, emission, shine, ambient, kind, textured, glowing, relief, wanted)
 
     @property
     def rough_lobes(self):

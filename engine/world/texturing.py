@@ -35,7 +35,7 @@ class TexturePoints:
     def look_up(self, coordinates):
         """The points (3, N) in `coordinates`, and None or the half-axes of their footprints, two (3, N)."""
         if coordinates not in self._known:
-            p, along_u, along_v = self._attribute(coordinates.attribute)
+            p, along_u, along_v = self.attribute(coordinates.attribute)
             axes = self.across and tuple(_affine(coordinates.matrix, a * along_u + b * along_v, 0) for a, b in self.across)
             self._known[coordinates] = _affine(coordinates.matrix, p, 1), axes
         return self._known[coordinates]
@@ -47,7 +47,8 @@ class TexturePoints:
             self._known[id(texture)] = texture.eval(self)
         return self._known[id(texture)]
 
-    def _attribute(self, key):
+    def attribute(self, key):
+        """An attribute at the points, see `Attribute.at`."""
         if key not in self._known:
             self._known[key] = self.attributes[key].at(self.prim, self.u, self.v)
         return self._known[key]

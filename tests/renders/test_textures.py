@@ -371,7 +371,7 @@ def test_textures_move_with_their_objects(shines):
 
 def test_togetherness_catches_footprints_of_triangles_at_rest(monkeypatch):
     """The mutant sees edges as they are in the object's own frame: their footprints are wrong by the turn."""
-    monkeypatch.setattr("glanz.engine.plan.footprints_at_time", cones.footprints_of_cones)
+    monkeypatch.setattr("glanz.engine.plan.edges_at_time", cones.edges_at_rest)
     with pytest.raises(AssertionError):
         test_textures_move_with_their_objects(True)
 

@@ -12,6 +12,7 @@ from hypothesis import HealthCheck, given, settings as hypothesis_settings, stra
 from glanz.engine import (
     AreaLight,
     Bitmap,
+    BumpMap,
     CheckerTexture,
     Coordinates,
     EnvironmentMap,
@@ -23,6 +24,7 @@ from glanz.engine import (
     Material,
     Medium,
     Mesh,
+    NormalMap,
     Object,
     PerspectiveCamera,
     Phong,
@@ -145,6 +147,7 @@ def textured_scene():
     image = ImageTexture(bitmap, Coordinates(layer="second", matrix=rng.standard_normal((4, 4))), "mirror", False)
     mixed = LinearTexture((image, CheckerTexture()), ((0.1, 0.2, 0.3), (0.3, 0.2, 0.1)), (0.1, 0.1, 0.1), True)
     material = Material(name="m", lobes=(Lambert(mixed), Phong((0.1, 0.1, 0.1), image)), emission=image)
+    material = dataclasses.replace(material, relief=(NormalMap(image), BumpMap(mixed, 0.3)))
     mesh = Mesh(
         name="m", vertices=rng.standard_normal((3, 4)), triangles=rng.integers(0, 4, (3, 5)), generated=rng.random((3, 4)),
         uv_layers=("first", "second"), uvs=rng.random((2, 2, 9)), uv_indices=rng.integers(0, 9, (3, 5)),

@@ -1,0 +1,97 @@
+"""Bump and Normal Map nodes become reliefs, in the order in which they follow each other."""
+
+import bpy
+import pytest
+
+from glanz.engine import BumpMap, CheckerTexture, ImageTexture, NormalMap
+from glanz.tests.addon import blender
+
+
+def bent(shader="ShaderNodeBsdfDiffuse"):
+    """(material, tree, shader node)."""
+    material = blender.new_material("Mat", shader)
+    return material, material.node_tree, next(n for n in material.node_tree.nodes if n.bl_idname == shader)
+
+
+def add_bump(tree, target, **inputs):
+    bump = blender.add_node(tree, "ShaderNodeBump", **inputs)
+    tree.links.new(tree.nodes.new("ShaderNodeTexChecker").outputs["Fac"], blender.node_input(bump, "Height"))
+    tree.links.new(bump.outputs[0], blender.node_input(target, "Normal"))
+    return bump
+
+
+def add_map(tree, target, **inputs):
+    node = blender.add_node(tree, "ShaderNodeNormalMap", **inputs)
+    image = tree.nodes.new("ShaderNodeTexImage")
+    image.image = bpy.data.images.new("Normals", 2, 2)
+    tree.links.new(image.outputs["Color"], blender.node_input(node, "Color"))
+    tree.links.new(node.outputs[0], blender.node_input(target, "Normal"))
+    return node
+
+
+def exported(material):
+    blender.add_plane().data.materials.append(material)
+    scene, warnings = blender.export()
+    return scene.objects[0].materials[0].relief, warnings
+
+
+SHADERS = ["ShaderNodeBsdfDiffuse", "ShaderNodeBsdfAnisotropic", "ShaderNodeBsdfGlass", "ShaderNodeBsdfPrincipled"]
+
+
+@pytest.mark.parametrize("shader", SHADERS)
+@pytest.mark.parametrize("inverted", [False, True])
+def test_bump(shader, inverted):
+    material, tree, node = bent(shader)
+    if shader == "ShaderNodeBsdfGlass":
+        blender.node_input(node, "Roughness").default_value = 0
+    add_bump(tree, node, Strength=0.5, Distance=0.25).invert = inverted
+    (relief,), warnings = exported(material)
+    assert warnings == ()
+    assert type(relief) is BumpMap
+    assert (relief.distance, relief.strength) == (-0.25 if inverted else 0.25, 0.5)
+    assert type(relief.texture) is CheckerTexture
+
+
+def test_normal_map():
+    material, tree, node = bent()
+    add_map(tree, node, Strength=0.5).uv_map = "Second"
+    (relief,), warnings = exported(material)
+    assert type(relief) is NormalMap
+    assert (relief.strength, relief.layer) == (0.5, "Second")
+    assert type(relief.texture) is ImageTexture
+    assert warnings == ("there is no UV map 'Second', it counts as 0: mesh 'Plane'",)
+
+
+def test_a_bump_on_a_normal_map_comes_after_it():
+    material, tree, node = bent()
+    add_map(tree, add_bump(tree, node))
+    reliefs, _ = exported(material)
+    assert [type(relief) for relief in reliefs] == [NormalMap, BumpMap]
+
+
+def test_what_is_left_out_is_named():
+    material, tree, node = bent()
+    add_map(tree, node).space = "OBJECT"
+    reliefs, (warning,) = exported(material)
+    assert reliefs == ()
+    assert "object space" in warning
+
+
+def test_other_nodes_for_normals_are_named():
+    material, tree, node = bent()
+    tree.links.new(tree.nodes.new("ShaderNodeTexChecker").outputs["Color"], blender.node_input(node, "Normal"))
+    reliefs, (warning,) = exported(material)
+    assert reliefs == ()
+    assert "Checker Texture" in warning
+
+
+def test_shaders_with_different_normals_are_named():
+    material, tree, node = bent()
+    add_bump(tree, node)
+    mix = tree.nodes.new("ShaderNodeMixShader")
+    tree.links.new(node.outputs[0], mix.inputs[1])
+    tree.links.new(tree.nodes.new("ShaderNodeBsdfDiffuse").outputs[0], mix.inputs[2])
+    tree.links.new(mix.outputs[0], tree.get_output_node("CYCLES").inputs["Surface"])
+    reliefs, (warning,) = exported(material)
+    assert type(reliefs[0]) is BumpMap
+    assert "different normals" in warning
