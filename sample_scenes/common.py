@@ -79,13 +79,35 @@ def save(scene, script):
 def world(colour, strength):
     """A world of constant colour."""
     made = bpy.data.worlds.new("World")
-    tree = _empty_tree(made)
+    tree = empty_tree(made)
     background = tree.nodes.new("ShaderNodeBackground")
     background.inputs["Color"].default_value = (*colour, 1.0)
     background.inputs["Strength"].default_value = strength
     output = tree.nodes.new("ShaderNodeOutputWorld")
     output.location = (300, 0)
     tree.links.new(background.outputs[0], output.inputs["Surface"])
+    return made
+
+
+def picture_world(name, pixels, turned=0.0):
+    """A world that shows an equirectangular picture, linear (H, W, 4) float32 with row 0 at the bottom, turned about z [rad]."""
+    height, width, _ = pixels.shape
+    image = bpy.data.images.new(name, width, height, float_buffer=True)
+    image.pixels.foreach_set(pixels.reshape(-1))
+    image.update()
+    image.pack()
+    made = world((0.0, 0.0, 0.0), 1.0)
+    tree = made.node_tree
+    (background,) = (node for node in tree.nodes if node.type == "BACKGROUND")
+    chain = [tree.nodes.new(f"ShaderNode{kind}") for kind in ("TexCoord", "Mapping", "TexEnvironment")]
+    for i, node in enumerate(chain):
+        node.location = (200 * i - 700, 0)
+    coordinates, mapping, texture = chain
+    mapping.inputs["Rotation"].default_value = (0.0, 0.0, turned)
+    texture.image = image
+    tree.links.new(coordinates.outputs["Generated"], mapping.inputs["Vector"])
+    tree.links.new(mapping.outputs[0], texture.inputs["Vector"])
+    tree.links.new(texture.outputs["Color"], background.inputs["Color"])
     return made
 
 
@@ -147,10 +169,48 @@ def emission(name, colour, strength):
     return _material(name, "ShaderNodeEmission", colour, Strength=strength)
 
 
+def shader(material):
+    """The node that feeds the surface of a material of this file."""
+    (output,) = (node for node in material.node_tree.nodes if node.type == "OUTPUT_MATERIAL")
+    return output.inputs["Surface"].links[0].from_node
+
+
+def nodes(material, *types):
+    """New nodes of Blender's `types` in a material, side by side on the left."""
+    made = [material.node_tree.nodes.new(kind) for kind in types]
+    for i, node in enumerate(made):
+        node.location = (-300 * (i + 1), 0)
+    return made
+
+
+def connect(material, output, socket):
+    """Link an output to an input."""
+    material.node_tree.links.new(output, socket)
+
+
+def colour_by(material, output):
+    """Let an output be the colour of a material of this file."""
+    connect(material, output, shader(material).inputs["Color"])
+
+
+def picture(name, width, height, pixels, is_colour=True):
+    """A packed 8-bit picture; `pixels` are linear RGBA numbers from the bottom left on, or plain data unless `is_colour`."""
+    made = bpy.data.images.new(name, width, height)
+    made.colorspace_settings.name = "sRGB" if is_colour else "Non-Color"
+    values = [float(v) for v in pixels]
+    if is_colour:
+        # What is stored is encoded; alpha is not.
+        values = [v if i % 4 == 3 else 1.055 * max(v, 0.0031308) ** (1 / 2.4) - 0.055 for i, v in enumerate(values)]
+    made.pixels.foreach_set(values)
+    made.update()
+    made.pack()
+    return made
+
+
 def _material(name, node_type, colour, **inputs):
     made = bpy.data.materials.new(name)
     made.diffuse_color = (*colour, 1.0)  # what the solid viewport shows
-    tree = _empty_tree(made)
+    tree = empty_tree(made)
     shader = tree.nodes.new(node_type)
     output = tree.nodes.new("ShaderNodeOutputMaterial")
     output.location = (300, 0)
@@ -161,7 +221,8 @@ def _material(name, node_type, colour, **inputs):
     return made
 
 
-def _empty_tree(datablock):
+def empty_tree(datablock):
+    """The node tree of a material or world, emptied."""
     if datablock.node_tree is None:  # from Blender 5 on there always is one, and the setting is on its way out
         datablock.use_nodes = True
     datablock.node_tree.nodes.clear()

@@ -8,7 +8,29 @@ import numpy as np
 import glanz
 
 FOLDER = Path(glanz.__file__).resolve().parent / "sample_scenes"
-NAMES = ("cornell_box", "phong_exponents", "lights", "instances", "mirror_and_glass", "depth_of_field", "zone_plate")
+NAMES = (
+    "checkerboard",
+    "cornell_box",
+    "depth_of_field",
+    "environment",
+    "glass_balls",
+    "glass_of_water",
+    "instances",
+    "lights",
+    "many_lights",
+    "metal_balls",
+    "mirror_and_glass",
+    "moving_balls",
+    "phong_exponents",
+    "phong_lobes",
+    "prism",
+    "ring_caustic",
+    "soft_shadow",
+    "stained_glass",
+    "textures",
+    "translucency",
+    "zone_plate",
+)
 
 
 def open_sample(name, samples=None, side=None):
