@@ -1,6 +1,6 @@
 """Run all measurements, print them with the bars they are held to, and write out/bench.json.
 
-    python -m benchmarks [name ...]    of: speed error many_lights instances motion memory; none: all
+    python -m benchmarks [name ...]    of: speed error many_lights instances motion features memory; none: all
 
 Every measurement runs in a process of its own. Nothing here fails because of a time: numbers are to be read.
 """
@@ -17,7 +17,7 @@ from .table import show
 
 ROOT = Path(__file__).resolve().parent.parent
 OUT = ROOT / "out"
-NAMES = ("speed", "error", "many_lights", "instances", "motion", "memory")
+NAMES = ("speed", "error", "many_lights", "instances", "motion", "features", "memory")
 
 
 def main(names):

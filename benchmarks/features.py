@@ -1,0 +1,103 @@
+"""What each feature costs: the Cornell box with it against the same without, processor time, in turns, medians of five.
+
+A feature changes what paths do (mirrors send them farther, glass through more surfaces), so this is its price in a
+scene that uses it, not the time of its code. Scenes that do not use it run none of it (tests/renders/test_costs.py).
+"""
+
+import dataclasses
+import time
+from statistics import median
+
+import numpy as np
+
+from glanz.addon.capture import capture
+from glanz.engine import (
+    Bitmap,
+    CheckerTexture,
+    Coordinates,
+    Dielectric,
+    EnvironmentMap,
+    ImageTexture,
+    Lambert,
+    LambertTransmission,
+    Lens,
+    Material,
+    Medium,
+    Mirror,
+    NoiseTexture,
+    Phong,
+    PointLight,
+    Transparent,
+    World,
+    render_image,
+)
+
+from . import blender
+
+SIDE, SAMPLES, ROUNDS = 256, 8, 5
+GENERATED = Coordinates(source="generated", matrix=np.diag((4.0, 4.0, 4.0, 1.0)))
+
+
+def main():
+    blender.open_cornell_box(SAMPLES, SIDE, SIDE)
+    with blender.quiet():
+        scene, settings, _ = capture()
+    variants = {"plain": (scene, settings), **features(scene, settings)}
+    seconds = {name: [] for name in variants}
+    for _ in range(ROUNDS):
+        for name, (changed, how) in variants.items():
+            start = time.process_time()
+            render_image(changed, how)
+            seconds[name].append(time.process_time() - start)
+    plain = seconds.pop("plain")
+    blender.finish({name: median(a / b for a, b in zip(times, plain)) for name, times in seconds.items()})
+
+
+def features(scene, settings):
+    """{name: (scene, settings) with a feature more}; the spheres and the tall box wear what is to be measured."""
+    replace = dataclasses.replace
+
+    def worn(*lobes, **others):
+        material = Material(name="measured", lobes=lobes, **others)
+        names = ("Large sphere", "Small sphere", "Tall box")
+        return replace(scene, objects=tuple(replace(o, materials=(material,)) if o.name in names else o for o in scene.objects))
+
+    rng = np.random.default_rng(1)
+    bitmap = Bitmap(name="bitmap", pixels=rng.random((3, 256, 256), np.float32))
+    sky = EnvironmentMap(pixels=rng.random((3, 64, 128), np.float32))
+    lamps = tuple(
+        PointLight(name=f"lamp {i}", position=tuple(rng.uniform((-0.9, -0.9, 1.2), (0.9, 0.9, 1.9))), intensity=(0.01,) * 3, radius=0.01)
+        for i in range(1000)
+    )
+    pushed = np.stack([scene.camera.world_from_camera] * 2)
+    pushed[1, 0, 3] += 0.05
+    with_scene = {
+        "phong": worn(Lambert((0.3,) * 3), Phong((0.4,) * 3, 30.0)),
+        "mirror": worn(Mirror((0.9,) * 3)),
+        "glass": worn(Dielectric(1.5)),
+        "absorption": worn(Dielectric(1.5), medium=Medium(absorption=(1.0, 2.0, 3.0))),
+        "dispersion": worn(Dielectric(1.5, abbe=30.0)),
+        "transparency": worn(Lambert((0.4,) * 3), Transparent((0.5,) * 3)),
+        "translucency": worn(Lambert((0.4,) * 3), LambertTransmission((0.4,) * 3)),
+        "image": worn(Lambert(ImageTexture(bitmap, GENERATED))),
+        "checker": worn(Lambert(CheckerTexture((0.8,) * 3, (0.2,) * 3, GENERATED))),
+        "noise": worn(Lambert(NoiseTexture(GENERATED))),
+        "environment": replace(scene, world=World(environment=sky)),
+        "lamps": replace(scene, lights=lamps),
+        "lens": replace(scene, camera=replace(scene.camera, lens=Lens(radius=0.05, focus_distance=3.7))),
+        "camera_motion": replace(scene, camera=replace(scene.camera, motion=pushed)),
+    }
+    with_settings = {
+        "whitted": {"integrator": "whitted"},
+        "distributed": {"integrator": "distributed", "branches": 8},
+        "path_blind": {"integrator": "path_blind"},
+        "adaptive": {"adaptive_threshold": 0.1, "adaptive_levels": 2},
+        **{f"sampler_{key}": {"sampler": key} for key in ("sobol", "blue_noise", "multijitter", "random")},
+    }
+    return {name: (changed, settings) for name, changed in with_scene.items()} | {
+        name: (scene, replace(settings, **changes)) for name, changes in with_settings.items()
+    }
+
+
+if __name__ == "__main__":
+    main()
