@@ -27,12 +27,13 @@ READY := $(VENV)/.ready-$(VERSION)
 RUN := $(VENV)/bin/python
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render test bench extension extension-linux lint clean distclean
+.PHONY: help setup render test bench gallery extension extension-linux lint clean distclean
 
 help:
 	@echo "make render           render sample_scenes/cornell_box.blend to out/"
 	@echo "make test             run all tests"
 	@echo "make bench            measure speed against Cycles"
+	@echo "make gallery          render the pictures of docs/gallery.md"
 	@echo "make extension        build the Blender extension for every platform in dist/"
 	@echo "make extension-linux  build it for Linux only"
 	@echo "make lint             check the style"
@@ -60,6 +61,9 @@ test: $(READY)
 
 bench: $(READY)
 	$(RUN) -m benchmarks
+
+gallery: $(READY)
+	$(RUN) tools/gallery.py
 
 extension: $(READY)
 	$(RUN) tools/build_extension.py
