@@ -1,8 +1,9 @@
 """Dull, mirroring and clear things under every kind of light look as in Cycles, tile by tile.
 
 Each scene has a dull floor and box, a mirror ball and a glass ball; each kind of light alone. Means of blocks within 1 %,
-where noise lets it be known, and no tile of 16 x 16 pixels that differs significantly (see `welch`). The lamps are large, or the glass ball would gather
-their light into a caustic that few paths find, and means of few replicates would not be normal.
+where noise lets it be known, and no tile of 16 x 16 pixels that differs significantly (see `welch`).
+The lamps are large, or the glass ball would gather their light into a caustic that few paths find, and means of few
+replicates would not be normal.
 """
 
 import bpy
