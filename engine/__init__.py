@@ -19,6 +19,7 @@ from .cameras.panorama import PanoramaCamera
 from .cameras.perspective import PerspectiveCamera
 from .constants import VERSION
 from .errors import FileError, GlanzError, SceneError
+from .interfaces import albedo_of
 from .io.exr import write_exr
 from .io.scene_file import read_scene, write_scene
 from .lights.area import AreaLight
@@ -30,11 +31,15 @@ from .registry import FILTERS, INTEGRATORS, PASSES, SAMPLERS, TEXTURES
 from .rendering import Image, Progress, Tile, metadata, render, render_image
 from .requirements import Requirements
 from .scene import Bitmap, Coordinates, EnvironmentMap, Lens, Material, Medium, Mesh, Object, Scene, Settings, World
+from .scene.points import average_of
 from .scene.relief import BumpMap, NormalMap
+from .scene.textured import folded, is_texture, textures_of
+from .textures.average import Average
 from .textures.checker import CheckerTexture
 from .textures.gradient import GradientTexture
 from .textures.image import ImageTexture
 from .textures.linear import LinearTexture
+from .textures.luminance import Luminance
 from .textures.noise import NoiseTexture
 
 __version__ = VERSION
@@ -46,6 +51,7 @@ __all__ = [
     "SAMPLERS",
     "TEXTURES",
     "AreaLight",
+    "Average",
     "Bitmap",
     "BlinnPhong",
     "BumpMap",
@@ -63,6 +69,7 @@ __all__ = [
     "LambertTransmission",
     "Lens",
     "LinearTexture",
+    "Luminance",
     "Material",
     "Medium",
     "Mesh",
@@ -87,10 +94,15 @@ __all__ = [
     "Tile",
     "Transparent",
     "World",
+    "albedo_of",
+    "average_of",
+    "folded",
+    "is_texture",
     "metadata",
     "read_scene",
     "render",
     "render_image",
+    "textures_of",
     "write_exr",
     "write_scene",
 ]

@@ -5,10 +5,17 @@
 
 from typing import Protocol, runtime_checkable
 
+import numpy as np
+
+from .arrays import columns
+
 
 @runtime_checkable
 class Lobe(Protocol):
     """What all BSDFs have in common; `Bsdf` and `SpecularBsdf` say how they scatter.
+
+    A parameter whose default is a number or a tuple of three may be a texture, if `row` hands it on under its own name. What
+    textures give is cut off to `limits`, {parameter: (least, most)}, where the class has them, and never below 0.
 
     is_specular  light leaves in single directions, and shadow rays cannot find it
     transmits    light may pass the surface; a specular BSDF that does has a `transmittance` (r, g, b)
@@ -31,8 +38,13 @@ class Lobe(Protocol):
     def check(self, owner):
         """Raises SceneError, naming the material `owner`, for parameters out of range."""
 
-    def albedo(self):
-        """An upper bound, and the usual share, of light that goes on (r, g, b), by which lobes are chosen."""
+    @staticmethod
+    def albedo(k):
+        """An upper bound, and the usual share, of light that goes on, (3, M) for the rows of `k`, by which lobes are chosen.
+
+        It is in proportion to the parameters `reflectance` and `transmittance`, those that the lobe has: where parameters
+        are textures, these are scaled down at each point until all lobes of a material together reflect at most 1.
+        """
 
 
 @runtime_checkable
@@ -83,6 +95,11 @@ class SpecularBsdf(Lobe, Protocol):
         """
 
 
+def albedo_of(lobe):
+    """`Lobe.albedo` of a BSDF value without textures: three numbers."""
+    return tuple(type(lobe).albedo(columns([lobe.row()], np.float64))[:, 0].tolist())
+
+
 def is_straight(bsdf):
     """Whether light passes `bsdf` (class or value) straight on: shadow rays, too, and light is found beyond as if it came direct."""
     return getattr(bsdf, "is_straight", False)
@@ -95,32 +112,39 @@ def lets_shadow_rays_pass(bsdf, tints_glass):
 
 @runtime_checkable
 class Texture(Protocol):
-    """A colour that varies over surfaces; it may stand for any parameter of a lobe, and for the emission of a material.
+    """A value that varies over surfaces: a pattern, a picture, what is computed from others, what is known of a point.
 
-    Where it does, what is below 0 counts as 0. For a parameter that is a number it is taken by its luminance.
-    Fields that hold `Coordinates` say where it is looked up, fields that hold textures what it is made of.
-    has_detail  it is averaged over footprints, so that rays have to carry them
+    It may stand for any parameter of a lobe, and for the emission of a material. Where it does, what is below 0 or no number
+    counts as 0, and a parameter that is a number takes the luminance of a colour. Textures are what they are: two with
+    the same fields are two. Fields annotated `object` are inputs: a number, three numbers, or a texture.
+
+    A texture also says, where it is so: `is_pure = False`, it is no function of its inputs alone (see `is_pure`); and
+    `has_detail = True`, it is averaged over footprints, so that rays have to carry them (see `has_detail`).
     """
 
     key: str
     label: str
-    has_detail: bool
 
     def check(self, owner):
-        """Raises SceneError, naming the material `owner`, for parameters out of range."""
-
-    def bounds(self):
-        """The least and the largest value of each channel: two (r, g, b)."""
-
-    def average(self):
-        """The value to expect where nothing is known, (r, g, b): lobes and lights are chosen by it."""
+        """Raises SceneError, naming the material `owner`, for options out of range."""
 
     def eval(self, at):
-        """The linear colour at points, (3, N), or (3, 1) where it is the same for all.
+        """The value at points: float32 (3, N) for a colour or vector, (1, N) for a number; one column where it is the same for all.
 
-        `at.look_up(coordinates)` gives the points (3, N), and None or the half-axes of footprints, two (3, N), to average
-        over; `at.value(texture)` gives the value of another texture.
+        `at` (see `world.texturing.TexturePoints`) has `at.value(x)`, the value of an input; `at.look_up(where)`, the points
+        (3, N) that an input or `Coordinates` stands for, and None or the half-axes of footprints, two (3, N), to average
+        over; `at.once(key, function)`, what several textures share.
         """
+
+
+def is_pure(texture):
+    """Whether a texture is a function of its inputs alone, and so a constant where they are."""
+    return getattr(texture, "is_pure", True)
+
+
+def has_detail(texture):
+    """Whether a texture is averaged over footprints."""
+    return getattr(texture, "has_detail", False)
 
 
 @runtime_checkable

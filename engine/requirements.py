@@ -4,10 +4,10 @@ import math
 from dataclasses import dataclass
 
 from . import needs
-from .interfaces import is_straight, lets_shadow_rays_pass
+from .interfaces import has_detail, is_straight, lets_shadow_rays_pass
 from .registry import BSDFS, CAMERAS, FILTERS, INTEGRATORS, LIGHTS, PASSES, SAMPLERS
 from .scene.bodies import inside_of, sharing_space
-from .scene.textured import averaged, brightest, is_texture, material_textures, with_inner
+from .scene.textured import averaged, is_texture, material_textures, may_emit, may_reflect, with_inner
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,7 @@ class Requirements:
         for material in dict.fromkeys(material for materials in inside.values() for material in materials):
             if material.medium is not None and any(material.medium.absorption):
                 ask(needs.ABSORPTION, material.name)
-            if any(getattr(lobe, "spread", 0) and any(lobe.albedo()) for lobe in map(averaged, material.lobes)):
+            if any(getattr(lobe, "spread", 0) and may_reflect(lobe) for lobe in map(averaged, material.lobes)):
                 ask(needs.DISPERSION, material.name)
         if len(camera.motion):
             ask(needs.CAMERA_MOTION, camera.name)
@@ -65,14 +65,14 @@ class Requirements:
                     if integrator.samples_lights:
                         ask(needs.TINTED_SHADOWS, material.name)
                 for lobe in material.lobes:
-                    if not any(brightest(lobe).albedo()):
+                    if not may_reflect(lobe):
                         continue
                     ask(needs.of_plugin("bsdf", type(lobe)), material.name)
                     if is_straight(lobe) and not integrator.tints_glass:
                         ask(needs.TRANSPARENCY, material.name)
                     if integrator.samples_lights and lets_shadow_rays_pass(lobe, integrator.tints_glass):
                         ask(needs.TINTED_SHADOWS, material.name)
-                if any(brightest(material).emission):
+                if may_emit(material):
                     ask(needs.EMISSIVE_MESHES, o.name)
                 if material.relief:
                     # Heights are compared as far apart as a ray is wide.
@@ -80,7 +80,7 @@ class Requirements:
                     ask(needs.FOOTPRINTS, material.name)
                 for texture in material_textures(material):
                     ask(needs.TEXTURES, material.name)
-                    if settings.filter_textures and any(part.has_detail for part in with_inner(texture)):
+                    if settings.filter_textures and any(map(has_detail, with_inner(texture))):
                         ask(needs.FOOTPRINTS, material.name)
         shining = [light for light in scene.lights if any(light.power())]
         for light in shining:

@@ -15,6 +15,7 @@ from glanz.engine import (
     OrthographicCamera,
     Phong,
 )
+from glanz.engine.scene.points import Points
 from glanz.tests import helpers as h, scenes
 
 CORNERS = ((0.0, 1.0, 1.0, 0.0), (0.0, 0.0, 1.0, 1.0))
@@ -66,3 +67,19 @@ def facing(mesh, material, **others):
     """A scene that looks down onto `mesh` at z = 0 with an orthographic camera 2 m wide; pixels see squares of equal size."""
     camera = OrthographicCamera(world_from_camera=h.affine(translation=(0, 0, 5)), window=(-1, 1, -1, 1))
     return h.scene([h.thing(mesh, material)], camera=camera, **others)
+
+
+class Anywhere(Points):
+    """Points all over the unit cube for all coordinates, without footprints."""
+
+    count, across = 20_000, None
+
+    def attribute(self, key):
+        p = np.random.default_rng(1).random((3, self.count)).astype(np.float32)
+        return p, np.zeros_like(p), np.zeros_like(p)
+
+
+def extremes(value):
+    """The least and the largest value of each channel of a texture on the unit cube: two (r, g, b)."""
+    found = np.broadcast_to(Anywhere().value(value), (3, Anywhere.count))
+    return tuple(found.min(axis=1).tolist()), tuple(found.max(axis=1).tolist())

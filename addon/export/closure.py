@@ -4,8 +4,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...engine import Dielectric, Lambert, LambertTransmission, Mirror, Phong, Transparent
-from .colours import BLACK, LUMINANCE, WHITE, added, is_texture, most, times
+from ...engine import Dielectric, Lambert, LambertTransmission, Mirror, Phong, Transparent, albedo_of, textures_of
+from .colours import WHITE, added, as_texture, cut, inverted, times, typical, varies
 
 SHARPEST_EXPONENT = 1e6
 """The engine's sharpest Phong lobe, 0.1 degrees wide; what would be sharper (roughness below 0.0376) is a mirror."""
@@ -15,15 +15,13 @@ SHARPEST_EXPONENT = 1e6
 class Closure:
     """The sum of `lobes` (BSDF values) plus `emission` [W m^-2 sr^-1].
 
-    Colours are constants or textures, see `colours`. `alpha` cuts out the lobes where it is a texture: light goes straight on
-    where it is 0 (a constant alpha is part of the lobes). `environments` are `EnvironmentMap` values, which add to the emission of
+    Colours are constants or textures, see `colours`. `environments` are `EnvironmentMap` values, which add to the emission of
     a world. `reliefs` are the different reliefs, each a tuple, of its shaders.
     """
 
     lobes: tuple = ()
     emission: object = (0.0, 0.0, 0.0)
     environments: tuple = ()
-    alpha: object = 1.0
     reliefs: tuple = ()
 
     def __add__(self, other):
@@ -31,23 +29,21 @@ class Closure:
             self.lobes + other.lobes,
             added(self.emission, other.emission),
             self.environments + other.environments,
-            self.alpha if is_texture(self.alpha) else other.alpha,
             tuple(dict.fromkeys(self.reliefs + other.reliefs)),
         )
 
     def scaled(self, factor):
-        """Everything times `factor`, a number or (3,)."""
+        """Everything times `factor`, a number, a colour or a texture; environments by its average."""
         return replace(
             self,
             lobes=tuple(scaled_lobe(lobe, factor) for lobe in self.lobes),
             emission=times(self.emission, factor),
-            environments=tuple(replace(e, strength=tuple(np.multiply(e.strength, factor))) for e in self.environments),
+            environments=tuple(replace(e, strength=tuple(np.multiply(e.strength, typical(factor)))) for e in self.environments),
         )
 
     def albedo(self):
-        """Share of light that goes on by all lobes together, (3,), where textures are brightest."""
-        brightest = (with_colours(lobe, map(most, colours_of(lobe))) for lobe in self.lobes)
-        return sum((np.array(lobe.albedo(), np.float64) for lobe in brightest), np.zeros(3))
+        """Share of light that goes on by all lobes without textures, (3,); of the others the engine takes care."""
+        return sum((np.array(albedo_of(lobe)) for lobe in self.lobes if not textures_of(lobe)), np.zeros(3))
 
 
 def scaled_lobe(lobe, factor):
@@ -74,7 +70,7 @@ def merged(lobes):
         black = [(0.0, 0.0, 0.0)] * len(colours)
         shape = with_colours(lobe, black)
         sums[shape] = [added(a, b) for a, b in zip(sums.get(shape, black), colours)]
-    return tuple(with_colours(shape, total) for shape, total in sums.items() if any(is_texture(c) or any(c) for c in total))
+    return tuple(with_colours(shape, total) for shape, total in sums.items() if any(varies(c) or any(c) for c in total))
 
 
 def phong_exponent(roughness):
@@ -91,27 +87,27 @@ def glossy_lobe(colour, roughness):
 
 def diffuse(colour):
     """Ideal diffuse reflection of `colour`."""
-    return Closure((Lambert(colour),))
+    return Closure((Lambert(as_texture(colour)),))
 
 
 def translucent(colour):
     """Ideal diffuse transmission of `colour`."""
-    return Closure((LambertTransmission(colour),))
+    return Closure((LambertTransmission(as_texture(colour)),))
 
 
 def glossy(colour, roughness):
     """A glossy lobe of `colour`."""
-    return Closure((glossy_lobe(colour, roughness),))
+    return Closure((glossy_lobe(as_texture(colour), roughness),))
 
 
 def glass(colour, ior):
     """A smooth boundary that tints what it reflects and what passes it by `colour`."""
-    return Closure((Dielectric(ior, colour, colour),))
+    return Closure((Dielectric(ior, as_texture(colour), as_texture(colour)),))
 
 
 def transparent(colour):
     """A surface that the share `colour` (r, g, b) of light passes straight on."""
-    return Closure((Transparent(tuple(colour)),))
+    return Closure((Transparent(as_texture(colour)),))
 
 
 def emission(colour, strength):
@@ -120,35 +116,11 @@ def emission(colour, strength):
 
 
 def mix(factor, first, second):
-    """The share 1 - factor of `first` and factor of `second`."""
-    factor = min(max(factor, 0.0), 1.0)
-    return first.scaled(1 - factor) + second.scaled(factor)
+    """The share 1 - factor of `first` and factor of `second`; the factor is a number or a texture."""
+    factor = cut(factor)
+    return first.scaled(inverted(factor)) + second.scaled(factor)
 
 
 def with_alpha(alpha, closure):
-    """`closure` where the surface is, with probability `alpha`; light goes straight on where it is not.
-
-    What it emits counts with the average of an alpha that is a texture.
-    """
-    if is_texture(alpha):
-        return replace(closure, alpha=alpha, emission=times(closure.emission, average(alpha)))
+    """`closure` where the surface is, with probability `alpha`; light goes straight on where it is not."""
     return mix(alpha, transparent(WHITE), closure)
-
-
-def without_texture(closure):
-    """`closure` with the average of an alpha that is a texture."""
-    alpha, closure = closure.alpha, replace(closure, alpha=1.0)
-    if not is_texture(alpha):
-        return closure
-    lobes = mix(average(alpha), transparent(WHITE), replace(closure, emission=BLACK)).lobes
-    return replace(closure, lobes=lobes)
-
-
-def is_clear(closure):
-    """Whether light goes straight on through `closure`, all of it, and nothing else happens."""
-    return closure.lobes == (Transparent(WHITE),) and closure.emission == BLACK and not is_texture(closure.alpha)
-
-
-def average(alpha):
-    """The average of a texture as a share of light."""
-    return float(np.clip(np.dot(LUMINANCE, alpha.average()), 0, 1))

@@ -1,69 +1,86 @@
-"""Colours that are constants (r, g, b) or textures, and what can be computed with them before rendering."""
+"""Values that are constants, numbers or (r, g, b), or vary from point to point, and what can be computed with them."""
 
 import numpy as np
 
-from ...engine import TEXTURES, LinearTexture
+from ...engine import Coordinates, LinearTexture, average_of, is_texture
 
 WHITE, BLACK = (1.0, 1.0, 1.0), (0.0, 0.0, 0.0)
 LUMINANCE = (0.2126, 0.7152, 0.0722)
 
 
-def is_texture(colour):
-    """Whether a colour is known only point by point."""
-    return type(colour) in TEXTURES.values()
+def varies(value):
+    """Whether a value is known only point by point: a texture, or `Coordinates`."""
+    return is_texture(value) or isinstance(value, Coordinates)
 
 
-def times(colour, factor):
-    """`colour` times a number or (r, g, b)."""
-    factor = np.broadcast_to(np.asarray(factor, np.float64), 3)
-    if not is_texture(colour):
-        return _constant(np.multiply(colour, factor))
+def as_texture(value):
+    """A value that varies as a texture."""
+    return LinearTexture((value,), (1.0,)) if isinstance(value, Coordinates) else value
+
+
+def times(a, b):
+    """The product of two values, as a colour."""
+    if not varies(a) or not varies(b):
+        a, b = (b, a) if varies(b) else (a, b)
+        return _scaled(a, np.broadcast_to(np.asarray(b, np.float64), 3))
+    return LinearTexture((a,), (b,))
+
+
+def _scaled(value, factor):
+    if not varies(value):
+        return _constant(np.multiply(value, factor))
+    if not factor.any():
+        return BLACK
     if (factor == 1).all():
-        return colour
-    terms = _terms(colour)
-    return LinearTexture(terms.textures, tuple(_constant(np.multiply(f, factor)) for f in terms.factors), _constant(terms.offset * factor))
+        return as_texture(value)
+    terms = _terms(value)
+    return LinearTexture(terms.textures, tuple(times(f, factor) for f in terms.factors), times(terms.offset, factor))
 
 
 def added(a, b):
-    """The sum of two colours."""
-    if not (is_texture(a) or is_texture(b)):
+    """The sum of two values, as a colour."""
+    if not (varies(a) or varies(b)):
         return _constant(np.add(a, b))
     for one, other in ((a, b), (b, a)):
-        if not is_texture(one) and not any(one):
-            return other
+        if not varies(one) and not np.any(one):
+            return as_texture(other)
     a, b = _terms(a), _terms(b)
-    return LinearTexture(a.textures + b.textures, a.factors + b.factors, _constant(np.add(a.offset, b.offset)))
+    return LinearTexture(a.textures + b.textures, a.factors + b.factors, added(a.offset, b.offset))
 
 
-def cut(colour):
-    """`colour` cut off to [0, 1]."""
-    if not is_texture(colour):
-        return _constant(np.clip(colour, 0, 1))
-    low, high = colour.bounds()
-    return colour if min(low) >= 0 and max(high) <= 1 else LinearTexture((colour,), (WHITE,), is_clipped=True)
+def cut(value):
+    """`value` cut off to [0, 1]."""
+    if varies(value):
+        return LinearTexture((value,), (1.0,), is_clipped=True)
+    return _constant(np.clip(value, 0, 1)) if isinstance(value, tuple) else min(max(value, 0.0), 1.0)
 
 
-def inverted(texture):
-    """1 - `texture`."""
-    return added(WHITE, times(texture, -1))
+def inverted(value):
+    """1 - `value`, as a colour."""
+    return added(WHITE, times(value, -1.0))
 
 
-def typical(colour):
-    """`colour`, or the average of a texture, (r, g, b)."""
-    return colour.average() if is_texture(colour) else colour
+def typical(value):
+    """`value`, or the average of what varies: a number or (r, g, b)."""
+    if not varies(value):
+        return value
+    mean = average_of(as_texture(value)).tolist()
+    return mean[0] if len(mean) == 1 else tuple(mean)
 
 
-def most(colour):
-    """`colour`, or the largest value of a texture, (r, g, b)."""
-    return colour.bounds()[1] if is_texture(colour) else colour
+def luminance(colour):
+    """The luminance of a constant (r, g, b)."""
+    return float(np.dot(LUMINANCE, colour))
 
 
-def _terms(colour):
-    if not is_texture(colour):
-        return LinearTexture(offset=_constant(colour))
-    is_sum = isinstance(colour, LinearTexture) and not colour.is_clipped
-    return colour if is_sum else LinearTexture((colour,), (WHITE,))
+def _terms(value):
+    if not varies(value):
+        return LinearTexture(offset=_constant(np.broadcast_to(np.asarray(value, np.float64), 3)))
+    is_sum = isinstance(value, LinearTexture) and not value.is_clipped
+    return value if is_sum else LinearTexture((value,), (1.0,))
 
 
 def _constant(colour):
     return tuple(float(c) for c in colour)
+
+

@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 
 from ...engine import Dielectric, Medium
-from .nodes import Reader, input_by_identifier
+from .nodes import input_by_identifier
+from .values import Reader
 
 DENSEST = 1e30
 """Absorption [m^-1] beyond which products no longer fit into single precision."""

@@ -6,13 +6,14 @@ import numpy as np
 
 from ...engine import Material, Transparent
 from .closure import Closure, colours_of, diffuse, merged, scaled_lobe, transparent, with_colours
-from .colours import is_texture
+from .colours import varies
 from .findings import Findings
 from .inside import absorbs, medium_of, with_dispersion
 from .lecture import is_lecture, lecture_medium, lecture_surface
-from .nodes import Reader, has_nodes, output_node
+from .nodes import has_nodes, output_node
 from .principled import principled_lobes
 from .shaders import surface_of
+from .values import Reader
 
 BRIGHTEST = 1e30
 """Radiance [W m^-2 sr^-1] beyond which products no longer fit into single precision."""
@@ -72,7 +73,7 @@ def _checked(name, owner, closure, findings):
         if most > 1 + 1e-6:  # rounding is nobody's fault
             findings.note("the material reflects more than it receives, so it is darkened", owner)
         lobes = tuple(scaled_lobe(lobe, 1 / most) for lobe in lobes)
-    return Material(name=name, lobes=lobes, emission=clean_colour(closure.emission, owner, findings), alpha=closure.alpha)
+    return Material(name=name, lobes=lobes, emission=clean_colour(closure.emission, owner, findings))
 
 
 def _clean_lobe(lobe, owner, findings):
@@ -81,7 +82,7 @@ def _clean_lobe(lobe, owner, findings):
 
 def clean_colour(colour, owner, findings):
     """`colour` as three finite numbers from 0 to BRIGHTEST, textures as they are; notes what had to be changed."""
-    if is_texture(colour):
+    if varies(colour):
         return colour
     values = np.array(colour, np.float64)
     clean = np.clip(np.nan_to_num(values, nan=0.0, posinf=BRIGHTEST, neginf=0.0), 0.0, BRIGHTEST)

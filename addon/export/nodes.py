@@ -3,9 +3,6 @@
 Nodes and sockets are found by type and identifier, never by name: names are translated and renamed.
 """
 
-_RGB_WEIGHTS = (0.2126, 0.7152, 0.0722)
-
-
 def has_nodes(datablock):
     """Whether the nodes of a material, world or light count; `use_nodes` means nothing any more where it is deprecated."""
     if datablock.node_tree is None:
@@ -24,24 +21,22 @@ def input_by_identifier(node, identifier):
     return next((socket for socket in node.inputs if socket.identifier == identifier), None)
 
 
-class Reader:
-    """Reads the sockets of one node tree and of the groups in it, and notes what it cannot read.
+class Links:
+    """Follows the links of one node tree and of the groups in it, and notes what is odd about them.
 
     owner   who is named in notes, such as "material 'Wood'"
-    bitmaps the images of textures, or None where textures are not read
     groups  the group nodes entered, outermost first
     trail   the nodes passed on the way from the output, each with the groups it is in
     """
 
-    def __init__(self, owner, findings, bitmaps=None, groups=(), trail=()):
+    def __init__(self, owner, findings, groups=(), trail=()):
         self.owner = owner
         self.findings = findings
-        self.bitmaps = bitmaps
         self.groups = groups
         self.trail = trail
 
     def _elsewhere(self, groups, trail):
-        return Reader(self.owner, self.findings, self.bitmaps, groups, trail)
+        return type(self)(self.owner, self.findings, groups, trail)
 
     def beyond(self, node):
         """A reader for what feeds `node`, or None, with a note, where that leads back to `node` itself."""
@@ -95,33 +90,3 @@ class Reader:
         """Whether a node feeds the input."""
         socket = input_by_identifier(node, identifier)
         return socket is not None and self.source(socket)[2] is not None
-
-    def colour(self, node, identifier, default=(0.0, 0.0, 0.0)):
-        """The constant of an input as (r, g, b)."""
-        value = self._constant(node, identifier, default)
-        return tuple(value) if isinstance(value, tuple) else (value,) * 3
-
-    def number(self, node, identifier, default=0.0):
-        """The constant of an input as a float; a colour counts with its luminance."""
-        value = self._constant(node, identifier, default)
-        return sum(w * c for w, c in zip(_RGB_WEIGHTS, value, strict=True)) if isinstance(value, tuple) else value
-
-    def _constant(self, node, identifier, default):
-        socket = input_by_identifier(node, identifier)
-        if socket is None:
-            return default
-        _, end, output = self.source(socket)
-        if output is not None:
-            if output.node.type in ("RGB", "VALUE"):
-                return _value(output, default)
-            source = output.node.bl_label
-            self.note(f"{identifier} of {node.bl_label} is linked to {source}, which is not read; the socket's own value is used")
-            end = socket
-        return _value(end, default)
-
-
-def _value(socket, default):
-    value = getattr(socket, "default_value", default)
-    if isinstance(value, (bool, int, float)):
-        return float(value)
-    return tuple(float(c) for c in value)[:3]

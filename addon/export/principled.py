@@ -18,7 +18,7 @@ import numpy as np
 
 from ...engine import Dielectric, Lambert
 from .closure import glossy_lobe
-from .colours import added, cut, times, typical
+from .colours import added, as_texture, cut, times, typical, varies
 
 _ANGLES = 2048
 
@@ -28,7 +28,7 @@ def principled_lobes(base, metallic, roughness, ior, specular_level, tint=(1.0, 
 
     The base colour may be a texture; what passes is tinted by its average.
     """
-    base = cut(base)
+    base = as_texture(base) if varies(base) else cut(base)
     m = min(max(metallic, 0.0), 1.0)
     coat = average_fresnel(effective_ior(ior, specular_level)) * np.clip(np.array(tint, np.float64), 0, 1)
     t = min(max(transmission, 0.0), 1.0)

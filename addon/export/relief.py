@@ -1,14 +1,14 @@
 """Blender's Bump and Normal Map nodes as the engine's reliefs."""
 
 from ...engine import BumpMap, NormalMap
+from .colours import as_texture, varies
 from .nodes import input_by_identifier
-from .textures import texture_behind
 
 
 def relief_of(reader, node):
     """The reliefs that feed the Normal input of a shader node, a tuple, first to last; notes what is not one."""
     socket = input_by_identifier(node, "Normal")
-    if socket is None or reader.bitmaps is None:
+    if socket is None or not reader.has_points:
         return ()
     behind, _, output = reader.source(socket)
     if output is None:
@@ -23,10 +23,9 @@ def relief_of(reader, node):
 
 def _bump(reader, node):
     below = relief_of(reader, node)
-    height = texture_behind(reader, node, "Height")
-    if height is None:
-        if reader.is_linked(node, "Height"):
-            reader.note("Height of Bump is linked to what is not read, so the bump is left out")
+    height = as_texture(reader.value(node, "Height"))
+    if not varies(height):
+        # What is equally high everywhere is flat.
         return below
     distance = reader.number(node, "Distance", 1.0)
     strength = max(reader.number(node, "Strength", 1.0), 0.0)
@@ -34,10 +33,7 @@ def _bump(reader, node):
 
 
 def _normal_map(reader, node):
-    colour = texture_behind(reader, node, "Color")
-    if colour is None:
-        reader.note("Color of Normal Map is not linked to a texture that is read, so the map is left out")
-        return ()
+    colour = as_texture(reader.value(node, "Color"))
     if node.space != "TANGENT":
         reader.note(f"Normal Map in {node.space.lower()} space is left out, only tangent space is supported")
         return ()

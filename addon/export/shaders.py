@@ -4,12 +4,12 @@ from dataclasses import replace
 
 from . import closure
 from .closure import Closure
-from .colours import cut, inverted, is_texture
+from .colours import varies
 from .environment import export_environment
-from .nodes import Reader, input_by_identifier
+from .nodes import input_by_identifier
 from .principled import principled_lobes
 from .relief import relief_of
-from .textures import colour_of, number_of
+from .values import Reader
 
 _WHITE = (1.0, 1.0, 1.0)
 
@@ -38,16 +38,7 @@ def _approximated(reader, node):
         reader.note(f"{node.bl_label} is not supported and is rendered black")
         return Closure()
     reader.note(f"{node.bl_label} is not supported and is rendered as Diffuse of its colour")
-    return closure.diffuse(share_of(reader, node, "Color"))
-
-
-def share_of(reader, node, identifier):
-    """The colour of an input that is a share of light; a texture is cut off to [0, 1]."""
-    colour = colour_of(reader, node, identifier)
-    if is_texture(colour) and cut(colour) is not colour:
-        reader.note(f"{identifier} of {node.bl_label} has a texture brighter than 1 or below 0, which is cut off")
-        return cut(colour)
-    return colour
+    return closure.diffuse(reader.value(node, "Color"))
 
 
 def _bent(reader, node, shader):
@@ -58,27 +49,27 @@ def _bent(reader, node, shader):
 def _diffuse(reader, node):
     if reader.number(node, "Roughness") > 0:
         reader.note("Roughness of Diffuse BSDF is left out")
-    return _bent(reader, node, closure.diffuse(share_of(reader, node, "Color")))
+    return _bent(reader, node, closure.diffuse(reader.value(node, "Color")))
 
 
 def _translucent(reader, node):
-    return _bent(reader, node, closure.translucent(share_of(reader, node, "Color")))
+    return _bent(reader, node, closure.translucent(reader.value(node, "Color")))
 
 
 def _glossy(reader, node):
     if reader.number(node, "Anisotropy") != 0:
         reader.note("Anisotropy of Glossy BSDF is left out")
-    return _bent(reader, node, closure.glossy(share_of(reader, node, "Color"), reader.number(node, "Roughness")))
+    return _bent(reader, node, closure.glossy(reader.value(node, "Color"), reader.number(node, "Roughness")))
 
 
 def _glass(reader, node):
     if reader.is_linked(node, "Roughness") or reader.number(node, "Roughness") > 0:
         reader.note("Roughness of Glass BSDF is left out, it is rendered smooth")
-    return _bent(reader, node, closure.glass(share_of(reader, node, "Color"), reader.number(node, "IOR", 1.5)))
+    return _bent(reader, node, closure.glass(reader.value(node, "Color"), reader.number(node, "IOR", 1.5)))
 
 
 def _emission(reader, node):
-    return closure.emission(colour_of(reader, node, "Color"), reader.number(node, "Strength"))
+    return closure.emission(reader.value(node, "Color"), reader.value(node, "Strength"))
 
 
 def _background(reader, node):
@@ -92,41 +83,17 @@ def _background(reader, node):
 
 
 def _transparent(reader, node):
-    return closure.transparent(reader.colour(node, "Color"))
+    return closure.transparent(reader.value(node, "Color"))
 
 
 def _add(reader, node):
     first, second = (_behind(reader, socket) for socket in node.inputs[:2])
-    # What is emitted is not cut out, so it may be added.
-    if first.lobes and second.lobes:
-        first, second = (_averaged(reader, shader) for shader in (first, second))
     return first + second
 
 
 def _mix(reader, node):
-    factor = number_of(reader, node, "Fac", default=0.5)
     first, second = (_behind(reader, node.inputs[i]) for i in (1, 2))
-    if is_texture(factor):
-        for clear, other, alpha in ((first, second, factor), (second, first, inverted(factor))):
-            if closure.is_clear(clear):
-                return _cut_out(reader, alpha, other)
-        reader.note("a texture that mixes two shaders counts with its average, unless one of them is Transparent and white")
-        factor = closure.average(factor)
-    return closure.mix(factor, *(_averaged(reader, shader) for shader in (first, second)))
-
-
-def _averaged(reader, shader):
-    """A closure without a texture for its alpha."""
-    if is_texture(shader.alpha):
-        reader.note("the texture of an alpha counts with its average where the shader is mixed with another")
-    return closure.without_texture(shader)
-
-
-def _cut_out(reader, alpha, shader):
-    """`shader` where the surface is, by `alpha`, a number or texture."""
-    if is_texture(alpha) and (is_texture(shader.emission) or any(shader.emission)):
-        reader.note("what is emitted is not cut out by a texture for alpha, it counts with its average")
-    return closure.with_alpha(alpha, _averaged(reader, shader))
+    return closure.mix(reader.value(node, "Fac", 0.5), first, second)
 
 
 _LEFT_OUT = {
@@ -147,8 +114,8 @@ def _principled(reader, node):
     transmission = reader.number(node, "Transmission Weight")
     if transmission > 0 and reader.number(node, "Roughness") > 0:
         reader.note("Roughness of what passes a Principled BSDF is left out, it is rendered smooth")
-    base = share_of(reader, node, "Base Color")
-    if transmission > 0 and is_texture(base):
+    base = reader.value(node, "Base Color")
+    if transmission > 0 and varies(base):
         reader.note("what passes a Principled BSDF is tinted by the average of the texture of its Base Color")
     lobes = principled_lobes(
         base,
@@ -159,8 +126,8 @@ def _principled(reader, node):
         reader.colour(node, "Specular Tint", _WHITE),
         transmission,
     )
-    shine = closure.emission(colour_of(reader, node, "Emission Color"), reader.number(node, "Emission Strength"))
-    return _cut_out(reader, number_of(reader, node, "Alpha", 1.0), _bent(reader, node, Closure(lobes, shine.emission)))
+    shine = closure.emission(reader.value(node, "Emission Color"), reader.value(node, "Emission Strength"))
+    return closure.with_alpha(reader.value(node, "Alpha", 1.0), _bent(reader, node, Closure(lobes, shine.emission)))
 
 
 _TABLE = {

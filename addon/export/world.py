@@ -4,8 +4,9 @@ from dataclasses import replace
 
 from ...engine import World
 from .material import clean_colour
-from .nodes import Reader, has_nodes, output_node
+from .nodes import has_nodes, output_node
 from .shaders import surface_of
+from .values import Reader
 
 
 def export_world(world, findings):

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..constants import PI
-from ..maths.lobes import check_exponent, sample_lobe, sample_lobe_pdf
+from ..maths.lobes import LARGEST_EXPONENT, check_exponent, sample_lobe, sample_lobe_pdf
 from ..maths.vectors import cosine_power, dot, length, reflect
 from . import registry
 
@@ -33,6 +33,7 @@ class BlinnPhong:
     is_specular = False
     transmits = False
     is_reciprocal = True
+    limits = {"exponent": (0.0, LARGEST_EXPONENT)}
 
     reflectance: tuple = (0.8, 0.8, 0.8)
     exponent: float = 128.0
@@ -44,8 +45,9 @@ class BlinnPhong:
     def row(self):
         return {"reflectance": self.reflectance, "exponent": self.exponent}
 
-    def albedo(self):
-        return self.reflectance
+    @staticmethod
+    def albedo(k):
+        return k.reflectance
 
     def check(self, owner):
         check_exponent(f"material '{owner}': Phong exponent", self.exponent)

@@ -41,6 +41,7 @@ class Dielectric:
     label = "Dielectric"
     is_specular = True
     transmits = True
+    limits = {"ior": (1e-3, 1e3)}
 
     ior: float = 1.5
     reflectance: tuple = (1.0, 1.0, 1.0)
@@ -80,9 +81,9 @@ class Dielectric:
             if not all(0 <= c < float("inf") for c in getattr(self, name)):
                 raise SceneError(f"material '{owner}': {name} is {getattr(self, name)}, allowed: three finite numbers from 0 on")
 
-    def albedo(self):
-        together = max if self.is_fresnel else sum
-        return tuple(together(pair) for pair in zip(self.reflectance, self.transmittance))
+    @staticmethod
+    def albedo(k):
+        return np.where(k.is_fresnel, np.maximum(k.reflectance, k.transmittance), k.reflectance + k.transmittance)
 
     @staticmethod
     def scatter(k, n, wo, is_front, u1):

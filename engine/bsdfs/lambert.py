@@ -31,8 +31,9 @@ class Lambert:
     def row(self):
         return {"reflectance": self.reflectance}
 
-    def albedo(self):
-        return self.reflectance
+    @staticmethod
+    def albedo(k):
+        return k.reflectance
 
     def check(self, owner):
         pass

@@ -31,8 +31,9 @@ class LambertTransmission:
     def row(self):
         return {"transmittance": self.transmittance}
 
-    def albedo(self):
-        return self.transmittance
+    @staticmethod
+    def albedo(k):
+        return k.transmittance
 
     def check(self, owner):
         pass

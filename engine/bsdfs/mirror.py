@@ -28,8 +28,9 @@ class Mirror:
     def check(self, owner):
         pass
 
-    def albedo(self):
-        return self.reflectance
+    @staticmethod
+    def albedo(k):
+        return k.reflectance
 
     @staticmethod
     def scatter(k, n, wo, is_front, u1):

@@ -11,7 +11,7 @@ below the surface carry nothing and still count.
 
 from dataclasses import dataclass
 
-from ..maths.lobes import check_exponent, phong_lobe, sample_lobe, sample_lobe_pdf
+from ..maths.lobes import LARGEST_EXPONENT, check_exponent, phong_lobe, sample_lobe, sample_lobe_pdf
 from ..maths.vectors import cosine_power, reflect
 from . import registry
 
@@ -26,6 +26,7 @@ class Phong:
     is_specular = False
     transmits = False
     is_reciprocal = True
+    limits = {"exponent": (0.0, LARGEST_EXPONENT)}
 
     reflectance: tuple = (0.8, 0.8, 0.8)
     exponent: float = 32.0
@@ -37,8 +38,9 @@ class Phong:
     def row(self):
         return {"reflectance": self.reflectance, "exponent": self.exponent}
 
-    def albedo(self):
-        return self.reflectance
+    @staticmethod
+    def albedo(k):
+        return k.reflectance
 
     def check(self, owner):
         check_exponent(f"material '{owner}': Phong exponent", self.exponent)

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..constants import EPS32
-from ..maths.lobes import check_exponent, phong_lobe, sample_lobe, sample_lobe_pdf
+from ..maths.lobes import LARGEST_EXPONENT, check_exponent, phong_lobe, sample_lobe, sample_lobe_pdf
 from ..maths.vectors import cosine_power, dot, reflect
 from . import registry
 
@@ -34,6 +34,7 @@ class PhongLecture:
     is_specular = False
     transmits = False
     is_reciprocal = False
+    limits = {"exponent": (0.0, LARGEST_EXPONENT)}
 
     reflectance: tuple = (0.8, 0.8, 0.8)
     exponent: float = 32.0
@@ -45,8 +46,9 @@ class PhongLecture:
     def row(self):
         return {"reflectance": self.reflectance, "exponent": self.exponent}
 
-    def albedo(self):
-        return tuple(c * (self.exponent + 2) / (self.exponent + 1) for c in self.reflectance)
+    @staticmethod
+    def albedo(k):
+        return k.reflectance * ((k.exponent + 2) / (k.exponent + 1))
 
     def check(self, owner):
         check_exponent(f"material '{owner}': Phong exponent", self.exponent)

@@ -10,7 +10,7 @@ is reciprocal, passes at most k_t, and for n -> infinity tends to a clear sheet 
 
 from dataclasses import dataclass
 
-from ..maths.lobes import check_exponent, phong_lobe, sample_lobe, sample_lobe_pdf
+from ..maths.lobes import LARGEST_EXPONENT, check_exponent, phong_lobe, sample_lobe, sample_lobe_pdf
 from ..maths.vectors import cosine_power
 from . import registry
 
@@ -25,6 +25,7 @@ class PhongTransmission:
     is_specular = False
     transmits = True
     is_reciprocal = True
+    limits = {"exponent": (0.0, LARGEST_EXPONENT)}
 
     transmittance: tuple = (0.8, 0.8, 0.8)
     exponent: float = 32.0
@@ -36,8 +37,9 @@ class PhongTransmission:
     def row(self):
         return {"transmittance": self.transmittance, "exponent": self.exponent}
 
-    def albedo(self):
-        return self.transmittance
+    @staticmethod
+    def albedo(k):
+        return k.transmittance
 
     def check(self, owner):
         check_exponent(f"material '{owner}': Phong exponent", self.exponent)

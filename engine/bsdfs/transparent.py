@@ -31,8 +31,9 @@ class Transparent:
     def check(self, owner):
         pass
 
-    def albedo(self):
-        return self.transmittance
+    @staticmethod
+    def albedo(k):
+        return k.transmittance
 
     @staticmethod
     def scatter(k, n, wo, is_front, u1):

@@ -11,7 +11,7 @@ from ..scene import Bitmap, Coordinates, EnvironmentMap, Lens, Material, Medium,
 from ..scene.relief import RELIEFS
 from ..textures.linear import LinearTexture
 
-SHARED = (Mesh, Material, Bitmap)
+SHARED = (Mesh, Material, Bitmap, *TEXTURES.values())
 """Values that many others may hold; they are stored once and are the same value again after reading."""
 PARTS = {
     Scene: {"camera": CAMERAS, "objects": [Object], "lights": [LIGHTS], "world": World},
@@ -132,8 +132,12 @@ def _check_field(cls, field, value):
     part = PARTS.get(cls, {}).get(field.name)
     if part is not None:
         fits = isinstance(value, tuple) and all(map(_fits_type(part[0]), value)) if isinstance(part, list) else _fits_type(part)(value)
+    elif field.type is object and cls in (*TEXTURES.values(), *RELIEFS.values()):
+        fits = type(value) in (*TEXTURES.values(), Coordinates) or _is_number(value) or _is_alike((0.0, 0.0, 0.0), value)
+    elif cls is LinearTexture and field.name == "factors":
+        fits = isinstance(value, tuple) and all(type(f) in TEXTURES.values() or _is_number(f) or _is_alike((0.0,) * 3, f) for f in value)
     elif type(value) in TEXTURES.values():
-        fits = cls in BSDFS.values() or cls in RELIEFS.values() or (cls is Material and field.name in ("emission", "alpha"))
+        fits = cls in BSDFS.values() or (cls is Material and field.name in ("emission", "alpha"))
     elif dataclasses.is_dataclass(field.default):
         fits = type(value) is type(field.default)
     elif field.default is not dataclasses.MISSING:

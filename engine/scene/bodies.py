@@ -5,7 +5,7 @@ from itertools import product
 import numpy as np
 
 from ..maths.vectors import cross, dot
-from .textured import brightest
+from .textured import may_reflect
 
 
 def inside_of(o):
@@ -18,7 +18,7 @@ def inside_of(o):
 
 
 def _has_inside(material):
-    open_lobes = [lobe for lobe in material.lobes if lobe.transmits and any(brightest(lobe).albedo())]
+    open_lobes = [lobe for lobe in material.lobes if lobe.transmits and may_reflect(lobe)]
     # What only lets light through, as a leaf's alpha does, has no inside unless it says so.
     return bool(open_lobes) and (material.medium is not None or any(hasattr(lobe, "ior") for lobe in open_lobes))
 

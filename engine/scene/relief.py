@@ -14,7 +14,7 @@ class NormalMap:
     layer     the uv layer; empty: the mesh's first
     """
 
-    texture: object
+    texture: object = 0.5
     strength: float = 1.0
     layer: str = ""
 
@@ -31,7 +31,7 @@ class BumpMap:
     strength  0 is the surface's normal, 1 the bent one
     """
 
-    texture: object
+    texture: object = 0.5
     distance: float = 0.1
     strength: float = 1.0
 

@@ -8,12 +8,11 @@ import dataclasses
 import numpy as np
 
 from ..constants import LUMINANCE
+from ..interfaces import albedo_of, is_pure
 from ..registry import TEXTURES
 from .coordinates import Coordinates
+from .points import average_of, constant_of
 from .relief import NormalMap
-
-_LEAST_SHARE = 2.0**-10
-"""A texture is at least so large on average, compared to its largest value: what is rarely bright must be found as well."""
 
 
 def is_texture(value):
@@ -27,23 +26,23 @@ def textures_of(value):
 
 
 def averaged(value):
-    """A lobe or material with each texture's average in its place."""
-    return _replaced(value, lambda t: np.maximum(t.average(), np.maximum(t.bounds()[1], 0) * _LEAST_SHARE))
+    """A lobe or material with each texture's average in its place; what is below 0 counts as 0."""
+    return _replaced(value, lambda field, texture: np.maximum(average_of(texture), 0))
 
 
-def brightest(value):
-    """A lobe or material with each texture's largest value in its place."""
-    return _replaced(value, lambda t: np.maximum(t.bounds()[1], 0))
+def plain(value):
+    """A lobe or material with the default of each parameter that is a texture: what can be checked of it without points."""
+    return dataclasses.replace(value, **{n: type(value).__dataclass_fields__[n].default for n in textures_of(value)})
 
 
-def most_reflecting(value):
-    """A lobe or material with the largest colours and the least numbers of its textures; no lobe reflects more than this."""
-    return dataclasses.replace(brightest(value), **{n: getattr(darkest(value), n) for n in textures_of(value) if is_number(value, n)})
+def may_reflect(lobe):
+    """Whether any light goes on by a lobe; textures may be anything."""
+    return bool(textures_of(lobe)) or any(albedo_of(lobe))
 
 
-def darkest(value):
-    """A lobe or material with each texture's least value in its place; what is below 0 counts as 0."""
-    return _replaced(value, lambda t: np.maximum(t.bounds()[0], 0))
+def may_emit(material):
+    """Whether a material emits anything; textures may be anything."""
+    return is_texture(material.emission) or any(material.emission)
 
 
 def is_number(value, field):
@@ -51,21 +50,44 @@ def is_number(value, field):
     return not isinstance(type(value).__dataclass_fields__[field].default, tuple)
 
 
-def _replaced(value, colour_of):
-    colours = {name: tuple(map(float, colour_of(texture))) for name, texture in textures_of(value).items()}
-    if not colours:
-        return value
-    return dataclasses.replace(value, **{n: float(np.dot(LUMINANCE, c)) if is_number(value, n) else c for n, c in colours.items()})
+def luminance(value):
+    """The number (N,) that a parameter takes of a texture's value (1, N) or (3, N)."""
+    return value[0] if len(value) == 1 else sum(np.float32(share) * channel for share, channel in zip(LUMINANCE, value))
+
+
+def _replaced(value, found):
+    values = {}
+    for name, texture in textures_of(value).items():
+        colour = np.broadcast_to(found(name, texture), 3)
+        values[name] = float(np.dot(LUMINANCE, colour)) if is_number(value, name) else tuple(colour.tolist())
+    return dataclasses.replace(value, **values) if values else value
+
+
+def inputs_of(texture):
+    """The values of a texture's inputs, constants and textures, those in tuples one by one."""
+    for f in dataclasses.fields(texture):
+        if f.type is object:
+            yield getattr(texture, f.name)
+        elif isinstance(value := getattr(texture, f.name), tuple):
+            yield from filter(is_texture, value)
 
 
 def with_inner(texture):
-    """`texture` and all textures that it is made of."""
-    yield texture
-    for f in dataclasses.fields(texture):
-        inner = getattr(texture, f.name)
-        for part in inner if isinstance(inner, tuple) else (inner,):
-            if is_texture(part):
-                yield from with_inner(part)
+    """`texture` and all textures that it is made of, each once, what it is made of first."""
+    found, stack = {}, [(texture, False)]
+    while stack:
+        part, is_done = stack.pop()
+        if is_done:
+            found[id(part)] = part
+        elif id(part) not in found:
+            stack += [(part, True), *((inner, False) for inner in inputs_of(part) if is_texture(inner))]
+    return tuple(found.values())
+
+
+def folded(texture):
+    """A texture as the constant that it is, a number or three, where it is a function of constants; else itself."""
+    is_constant = is_pure(texture) and not any(is_texture(x) or isinstance(x, Coordinates) for x in inputs_of(texture))
+    return constant_of(texture) if is_constant else texture
 
 
 def coordinates_of(texture):

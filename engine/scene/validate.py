@@ -7,12 +7,13 @@ import numpy as np
 
 from ..constants import EPS32
 from ..errors import SceneError
-from ..interfaces import is_straight
+from ..interfaces import albedo_of
 from ..registry import BSDFS, CAMERAS, FILTERS, INTEGRATORS, LIGHTS, PASSES, SAMPLERS
+from .coordinates import Coordinates
 from .environment import EnvironmentMap
 from .medium import Medium
 from .relief import RELIEFS
-from .textured import averaged, brightest, coordinates_of, darkest, is_texture, material_textures, most_reflecting, textures_of, with_inner
+from .textured import coordinates_of, inputs_of, is_texture, material_textures, plain, textures_of, with_inner
 
 
 def validate(scene, settings):
@@ -71,31 +72,25 @@ def _check_material(material):
     for lobe in material.lobes:
         if type(lobe) not in BSDFS.values():
             raise SceneError(f"material '{material.name}': {type(lobe).__name__} is not a BSDF")
-        if is_straight(lobe) and textures_of(lobe):
-            raise SceneError(f"material '{material.name}': what passes a {lobe.key} surface is a texture, allowed: a constant")
-        for name in textures_of(lobe).keys() - averaged(lobe).row().keys():
+        for name in textures_of(lobe).keys() - plain(lobe).row().keys():
             raise SceneError(f"material '{material.name}': {lobe.key} {name} is a texture, allowed: a constant")
     if not is_texture(material.alpha) and not 0 <= material.alpha <= 1:
         raise SceneError(f"material '{material.name}': alpha is {material.alpha}, allowed: 0 to 1")
     for relief in material.relief:
-        if type(relief) not in RELIEFS.values() or not is_texture(relief.texture):
-            raise SceneError(f"material '{material.name}': {type(relief).__name__} is not a relief, or has no texture")
+        if type(relief) not in RELIEFS.values():
+            raise SceneError(f"material '{material.name}': {type(relief).__name__} is not a relief")
         relief.check(material.name)
+        _check_inputs(material, relief, type(relief).__name__)
     if is_texture(material.ambient):
         raise SceneError(f"material '{material.name}': ambient is a texture, allowed: three finite numbers from 0 on")
     for texture in material_textures(material):
         for part in with_inner(texture):
             part.check(material.name)
+            _check_inputs(material, part, part.key)
         for coordinates in coordinates_of(texture):
             coordinates.check(material.name)
-    # Between the least and the largest values of its textures a material must be allowed, whichever meet at a point.
-    for extreme in (brightest, most_reflecting, darkest) if material_textures(material) else (lambda value: value,):
-        _check_constant(dataclasses.replace(extreme(material), lobes=tuple(map(extreme, material.lobes))))
-
-
-def _check_constant(material):
     for name in ("emission", "ambient"):
-        if not _is_colour(value := getattr(material, name)):
+        if not (is_texture(value := getattr(material, name)) or _is_colour(value)):
             raise SceneError(f"material '{material.name}': {name} is {value}, allowed: three finite numbers from 0 on")
     if material.medium is not None:
         if type(material.medium) is not Medium:
@@ -103,18 +98,23 @@ def _check_constant(material):
         material.medium.check(material.name)
     total = np.zeros(3)
     for lobe in material.lobes:
-        # First what albedo() computes with, then what it returns.
+        # What textures give is cut off to what is allowed, point by point. First what an albedo is computed from, then itself.
+        is_textured, lobe = bool(textures_of(lobe)), plain(lobe)
         lobe.check(material.name)
-        if not _is_colour(lobe.albedo()):
-            raise SceneError(
-                f"material '{material.name}': {lobe.key} reflectance is {lobe.albedo()}, allowed: three finite numbers from 0 on"
-            )
-        total += lobe.albedo()
+        if not _is_colour(albedo := albedo_of(lobe)):
+            raise SceneError(f"material '{material.name}': {lobe.key} reflectance is {albedo}, allowed: three finite numbers from 0 on")
+        total += 0 if is_textured else albedo
     if (total > 1 + 1e-6).any():
         raise SceneError(
             f"material '{material.name}' reflects {tuple(total.round(6).tolist())}, more than it receives: "
             "scale its reflectances to a sum of at most 1"
         )
+
+
+def _check_inputs(material, texture, what):
+    for value in inputs_of(texture):
+        if not (is_texture(value) or isinstance(value, Coordinates)) and np.shape(value) not in ((), (3,)):
+            raise SceneError(f"material '{material.name}': an input of its {what} is {value!r}, allowed: one or three numbers")
 
 
 def _check_light(light, warnings):

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..scene.coordinates import GENERATED, Coordinates
+from ..scene.coordinates import GENERATED
 from . import registry
 
 _SHIFT, _SHRINK = 1e-6, 0.999999
@@ -12,7 +12,7 @@ _SHIFT, _SHRINK = 1e-6, 0.999999
 
 
 @registry.add
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class CheckerTexture:
     """Unit cubes, `odd` where an odd number of the three whole coordinates is odd, else `even`: Blender's checker of scale 1.
 
@@ -23,18 +23,12 @@ class CheckerTexture:
     label = "Checker"
     has_detail = True
 
-    odd: tuple = (0.8, 0.8, 0.8)
-    even: tuple = (0.2, 0.2, 0.2)
-    coordinates: Coordinates = GENERATED
+    odd: object = (0.8, 0.8, 0.8)
+    even: object = (0.2, 0.2, 0.2)
+    coordinates: object = GENERATED
 
     def check(self, owner):
         pass
-
-    def bounds(self):
-        return tuple(map(min, self.odd, self.even)), tuple(map(max, self.odd, self.even))
-
-    def average(self):
-        return tuple(0.5 * (a + b) for a, b in zip(self.odd, self.even))
 
     def eval(self, at):
         p, axes = at.look_up(self.coordinates)
@@ -42,7 +36,7 @@ class CheckerTexture:
         # The box that holds the ellipse of half-axes a, b is sqrt(a^2 + b^2) wide to both sides.
         signs = 1 - 2 * (np.floor(p) % 2) if axes is None else mean_sign(p, np.sqrt(axes[0] ** 2 + axes[1] ** 2))
         share = 0.5 - 0.5 * (signs[0] * signs[1] * signs[2])
-        odd, even = (np.array(colour, np.float32)[:, None] for colour in (self.odd, self.even))
+        odd, even = at.value(self.odd), at.value(self.even)
         return even + share * (odd - even)
 
 

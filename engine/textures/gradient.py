@@ -7,7 +7,7 @@ import numpy as np
 from ..constants import INV_PI
 from ..errors import SceneError
 from ..maths.vectors import length
-from ..scene.coordinates import GENERATED, Coordinates
+from ..scene.coordinates import GENERATED
 from . import registry
 
 _RADIUS = 0.999999
@@ -35,7 +35,7 @@ _SHAPES = {
 
 
 @registry.add
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class GradientTexture:
     """Grey from 0 to 1 by `shape`, as Blender's: linear, quadratic, easing, diagonal, radial, quadratic sphere or spherical.
 
@@ -46,22 +46,15 @@ class GradientTexture:
 
     key = "gradient"
     label = "Gradient"
-    has_detail = False
 
     shape: str = "linear"
-    coordinates: Coordinates = GENERATED
+    coordinates: object = GENERATED
 
     def check(self, owner):
         if self.shape not in _SHAPES:
             raise SceneError(f"material '{owner}': gradient is '{self.shape}', allowed: {', '.join(_SHAPES)}")
 
-    def bounds(self):
-        return (0.0,) * 3, (1.0,) * 3
-
-    def average(self):
-        return (0.5,) * 3
-
     def eval(self, at):
         p, _ = at.look_up(self.coordinates)
         value = np.clip(_SHAPES[self.shape](*p), 0, 1)
-        return np.broadcast_to(value, (3, value.size))
+        return value[None]

@@ -7,14 +7,14 @@ import numpy as np
 from ..errors import SceneError
 from ..maths.mipmaps import EXTENSIONS
 from ..scene.bitmap import Bitmap
-from ..scene.coordinates import UV, Coordinates
+from ..scene.coordinates import UV
 from . import registry
 
 _GREY = Bitmap(name="grey", pixels=np.full((3, 1, 1), 0.5, np.float32))
 
 
 @registry.add
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ImageTexture:
     """A picture on [0, 1]^2 of the first two coordinates, averaged over what a ray stands for.
 
@@ -27,7 +27,7 @@ class ImageTexture:
     has_detail = True
 
     bitmap: Bitmap = _GREY
-    coordinates: Coordinates = UV
+    coordinates: object = UV
     extension: str = "repeat"
     is_smooth: bool = True
 
@@ -36,15 +36,6 @@ class ImageTexture:
             raise SceneError(f"material '{owner}': image extension is '{self.extension}', allowed: {', '.join(EXTENSIONS)}")
         if not np.isfinite(self.bitmap.bounds).all():
             raise SceneError(f"material '{owner}': image '{self.bitmap.name}' has pixels that are not finite")
-
-    def bounds(self):
-        low, high = self.bitmap.bounds
-        if self.extension == "clip":
-            return tuple(min(0.0, c) for c in low), tuple(max(0.0, c) for c in high)
-        return low, high
-
-    def average(self):
-        return self.bitmap.mean
 
     def eval(self, at):
         (x, y, _), axes = at.look_up(self.coordinates)

@@ -9,41 +9,29 @@ from . import registry
 
 
 @registry.add
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class LinearTexture:
-    """The sum of `textures`, each times its factor (r, g, b), plus `offset` (r, g, b).
+    """The sum of `textures`, each times its factor, plus `offset`; factors and offset are inputs: numbers, colours or textures.
 
     is_clipped  each texture is cut off to [0, 1] first: pictures brighter than white, or noise about 0, as shares of light
     """
 
     key = "linear"
     label = "Linear Combination"
-    has_detail = False
 
     textures: tuple = ()
     factors: tuple = ()
-    offset: tuple = (0.0, 0.0, 0.0)
+    offset: object = 0.0
     is_clipped: bool = False
 
     def check(self, owner):
-        colours = [np.asarray(c) for c in (*self.factors, self.offset)]
-        are_colours = all(c.shape == (3,) and c.dtype.kind in "iuf" and np.isfinite(c).all() for c in colours)
-        if len(self.factors) != len(self.textures) or not are_colours:
-            raise SceneError(f"material '{owner}': a combination of textures needs three finite factors for each of them")
-
-    def bounds(self):
-        products = [self._cut(t.bounds()) * np.array(f, np.float64) for t, f in zip(self.textures, self.factors)]
-        return tuple(tuple((sum(end(p, axis=0) for p in products) + np.array(self.offset)).tolist()) for end in (np.min, np.max))
-
-    def average(self):
-        terms = (self._cut(t.average()) * np.array(f, np.float64) for t, f in zip(self.textures, self.factors))
-        return tuple((sum(terms) + np.array(self.offset)).tolist())
-
-    def _cut(self, value):
-        return np.clip(value, 0, 1) if self.is_clipped else np.asarray(value)
+        are_inputs = all(hasattr(c, "eval") or np.shape(c) in ((), (3,)) for c in self.factors)
+        if len(self.factors) != len(self.textures) or not are_inputs:
+            raise SceneError(f"material '{owner}': a combination of textures needs a factor for each of them, one or three numbers")
 
     def eval(self, at):
-        total = np.array(self.offset, np.float32)[:, None]
+        total = at.value(self.offset)
         for texture, factor in zip(self.textures, self.factors):
-            total = total + self._cut(at.value(texture)) * np.array(factor, np.float32)[:, None]
+            value = at.value(texture)
+            total = total + (np.clip(value, 0, 1) if self.is_clipped else value) * at.value(factor)
         return total

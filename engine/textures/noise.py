@@ -8,14 +8,14 @@ import numpy as np
 from ..errors import SceneError
 from ..maths.perlin import fractal, noise, offset
 from ..maths.vectors import length
-from ..scene.coordinates import GENERATED, Coordinates
+from ..scene.coordinates import GENERATED
 from . import registry
 
 MOST_DETAIL = 15.0
 
 
 @registry.add
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class NoiseTexture:
     """Blender's fractal noise in three dimensions: octaves of gradient noise, each finer and weaker than the one before.
 
@@ -32,7 +32,7 @@ class NoiseTexture:
     label = "Noise"
     has_detail = True
 
-    coordinates: Coordinates = GENERATED
+    coordinates: object = GENERATED
     detail: float = 2.0
     roughness: float = 0.5
     lacunarity: float = 2.0
@@ -46,15 +46,6 @@ class NoiseTexture:
             if not (math.isfinite(value) and value <= most and (value >= 0 or name == "distortion")):
                 raise SceneError(f"material '{owner}': noise {name} is {value}, allowed: 0 to {most:g}")
 
-    def bounds(self):
-        if self.is_normalized:
-            return (0.0,) * 3, (1.0,) * 3
-        most = sum(self.roughness**i for i in range(math.floor(self.detail) + 2))
-        return (-most,) * 3, (most,) * 3
-
-    def average(self):
-        return (0.5 if self.is_normalized else 0.0,) * 3
-
     def eval(self, at):
         p, axes = at.look_up(self.coordinates)
         # Both half-axes of the footprint: half of its longest extent.
@@ -63,7 +54,7 @@ class NoiseTexture:
             p = p + np.float32(self.distortion) * np.stack([noise(p + offset(seed)) for seed in (0, 1, 2)])
         value = self._fractal(p, half)
         if not self.is_coloured:
-            return np.broadcast_to(value, (3, value.size))
+            return value[None]
         return np.stack((value, self._fractal(p + offset(3), half), self._fractal(p + offset(4), half)))
 
     def _fractal(self, p, half):

@@ -14,10 +14,10 @@ import dataclasses
 import numpy as np
 
 from ..arrays import Columns
-from ..constants import LUMINANCE
 from ..maths.vectors import dot, length
+from ..scene.textured import luminance
 from ..world.interaction import leave_on_either_side
-from ..world.texturing import TexturePoints
+from ..world.texturing import TexturePoints, clean
 from .numbers import Dimension
 from .visibility import blocked, travel
 
@@ -55,12 +55,13 @@ def _decide(plan, rays, hits, turn):
     material = plan.world.triangles.material.take(hits.prim.take(met))
     clear = np.nonzero(table.is_clear.take(material))[0]
     lanes, material = met.take(clear), material.take(clear)
-    alpha = _alpha(plan, hits, lanes, material, _footprints_of(plan, rays, hits))
+    alpha, clear = _looked_up(plan, hits, lanes, material, table.transmittance, table.veils, _footprints_of(plan, rays, hits))
     beta = rays.beta.take(lanes, axis=1)
     kept = beta * alpha
-    passed = beta * (1 - alpha) + kept * table.transmittance.take(material, axis=1)
+    passed = beta * (1 - alpha) + kept * clear
     p = passed.sum(axis=0)
-    total = p + dot(kept, table.albedo.take(material, axis=1))
+    # What passes and what is reflected are at most all that arrives.
+    total = p + dot(kept, np.minimum(table.albedo.take(material, axis=1), 1 - clear))
     p /= np.where(total > 0, total, 1)
     # Where nothing else goes on there is nothing to decide.
     u1 = 0 if (p == 1).all() else plan.numbers.one(rays, Dimension.PASS + _NEXT_TURN * turn).take(lanes)
@@ -81,16 +82,25 @@ def _point_by_point(lanes, prim):
     return
 
 
-def _alpha(plan, hits, lanes, material, footprints):
-    """The share (M,) of the surfaces of `material` (M,) that is there, where the rays `lanes` (M,) met them."""
-    alpha = plan.world.passing.alpha.take(material)
-    for row, texture in plan.world.passing.cutouts.items():
+def _looked_up(plan, hits, lanes, material, passed, textures, footprints):
+    """The share (M,) of the surfaces of `material` (M,) that is there, where the rays `lanes` (M,) met them, and what of it passes.
+
+    The latter, (3, M), are the columns of `passed`, plus `textures` {row: textures} where there are any.
+    """
+    table = plan.world.passing
+    alpha, clear = table.alpha.take(material), passed.take(material, axis=1)
+    for row in dict.fromkeys((*table.cutouts, *textures)):
         own = np.nonzero(material == row)[0]
+        if not own.size:
+            continue
         at = lanes.take(own)
         prim, u, v = (column.take(at) for column in (hits.prim, hits.u, hits.v))
-        value = TexturePoints(plan.world.attributes, prim, u, v, footprints(at, prim)).value(texture)
-        alpha[own] = np.clip(sum(np.float32(share) * channel for share, channel in zip(LUMINANCE, value)), 0, 1)
-    return alpha
+        points = TexturePoints(plan.world.attributes, prim, u, v, footprints(at, prim))
+        if row in table.cutouts:
+            alpha[own] = np.minimum(luminance(clean(points.value(table.cutouts[row]))), 1)
+        for texture in textures.get(row, ()):
+            clear[:, own] = np.minimum(clear[:, own] + clean(points.value(texture)), 1)
+    return alpha, clear
 
 
 def _travel_beyond(plan, rays, hits, film):
@@ -137,8 +147,8 @@ def _transmittance(plan, rays, o, d, limit):
         share[:, lanes] *= plan.left(plan, rays, hits.t)
         met = np.nonzero(hits.prim >= 0)[0]
         material = materials.take(hits.prim.take(met))
-        alpha = _alpha(plan, hits, met, material, _point_by_point)
-        tint = 1 - alpha + alpha * table.shadow.take(material, axis=1)
+        alpha, shadow = _looked_up(plan, hits, met, material, table.shadow, table.shades, _point_by_point)
+        tint = 1 - alpha + alpha * shadow
         share[:, lanes.take(met)] *= tint
         on = met[tint.any(axis=0)]
         lanes, hits, towards = lanes.take(on), hits.take(on), towards.take(on, axis=1)

@@ -8,10 +8,10 @@ import dataclasses
 
 import numpy as np
 
-from ..constants import LUMINANCE
 from ..maths.vectors import cross, dot, length
 from ..scene.relief import NormalMap
-from ..world.texturing import TexturePoints, barycentric
+from ..scene.textured import luminance
+from ..world.texturing import barycentric
 from .texturing import points_of
 
 _LEAST_STEP = np.float32(2.0**-18)
@@ -76,8 +76,7 @@ def _bumped(relief, at, ns, n, e1, e2, step, scale):
     slopes = []
     for along in (right, up):
         du, dv = barycentric(along * step, e1, e2, n)
-        moved = TexturePoints(at.attributes, at.prim, at.u + du, at.v + dv, at.across)
-        slopes.append(np.float32(relief.distance) * scale * (_height(relief, moved) - middle) / step)
+        slopes.append(np.float32(relief.distance) * scale * (_height(relief, at.moved(du, dv)) - middle) / step)
     across = cross(up, ns), cross(ns, right)
     determinant = dot(right, across[0])
     gradient = slopes[0] * across[0] + slopes[1] * across[1]
@@ -90,5 +89,4 @@ def _bumped(relief, at, ns, n, e1, e2, step, scale):
 
 
 def _height(relief, at):
-    value = np.broadcast_to(at.value(relief.texture), (3, at.prim.size))
-    return sum(np.float32(share) * channel for share, channel in zip(LUMINANCE, value))
+    return np.broadcast_to(luminance(at.value(relief.texture)), at.count)

@@ -1,13 +1,14 @@
 """Parameters of materials that textures fill in."""
 
-import dataclasses
-
 import numpy as np
 
 from ..arrays import Columns
-from ..constants import LUMINANCE
+from ..scene.textured import luminance
 from ..world.materials import Lobe
-from ..world.texturing import TexturePoints
+from ..world.texturing import TexturePoints, clean
+
+_SCALES = ("reflectance", "transmittance")
+"""The parameters to which the albedo of a lobe is in proportion."""
 
 
 def points_of(plan, rays, surface):
@@ -17,11 +18,15 @@ def points_of(plan, rays, surface):
 
 
 def fill_in_textures(plan, rays, surface, reflection):
-    """The reflection with the values of textures in the columns that they stand for; each only where its material is met."""
+    """The reflection with the values of textures in the columns that they stand for; each only where its material is met.
+
+    There the lobes together reflect at most what does not pass straight on, and are chosen by what they reflect.
+    """
     materials = plan.world.materials
-    points = points_of(plan, rays, surface)
+    points, count = points_of(plan, rays, surface), surface.prim.size
     lobes = [*reflection.rough, *reflection.specular]
-    own = {}
+    # Where there is but one lobe, the table has no shares by lane.
+    own, shares = {}, np.array(np.broadcast_to(reflection.shares if len(lobes) > 1 else np.float32(1), (len(lobes), count)))
     for row, textured in materials.textured.items():
         lanes = np.nonzero(surface.material == row)[0]
         if not lanes.size:
@@ -29,15 +34,36 @@ def fill_in_textures(plan, rays, surface, reflection):
         at = points.take(lanes)
         for t in textured:
             if t.lobe not in own:
-                own[t.lobe] = _with_own_columns(lobes[t.lobe].k, surface.prim.size)
-            value = np.maximum(at.value(t.texture), 0)
-            if t.is_number:
-                value = sum(np.float32(share) * channel for share, channel in zip(LUMINANCE, value))
-            getattr(own[t.lobe], t.column)[..., lanes] = value
+                own[t.lobe] = _with_own_columns(lobes[t.lobe].k, count)
+            getattr(own[t.lobe], t.column)[..., lanes] = t.value(at)
+        tables = [_rows(own.get(i, lobe.k), lanes) for i, lobe in enumerate(lobes)]
+        albedos = [lobe.bsdf.albedo(k) for lobe, k in zip(lobes, tables)]
+        rest = 1 - sum(np.minimum(clean(at.value(passed)), 1) for passed in materials.straight[row])
+        for i, albedo in enumerate(albedos):
+            shares[i, lanes] = luminance(albedo)
+        _limit(lobes, own, count, lanes, rest, sum(albedos))
     for i, k in own.items():
         lobes[i] = Lobe(lobes[i].bsdf, k)
-    rough = len(reflection.rough)
-    return dataclasses.replace(reflection, rough=tuple(lobes[:rough]), specular=tuple(lobes[rough:]))
+    return reflection.with_lobes(lobes, shares)
+
+
+def _limit(lobes, own, count, lanes, rest, total):
+    """Darken all `lobes` at the points `lanes` where their albedo `total` (3, M) is more than the `rest` of light."""
+    factor = np.where(total > rest, np.maximum(rest, 0) / total, np.float32(1)).min(axis=0)
+    over = np.nonzero(factor < 1)[0]
+    if not over.size:
+        return
+    for i, lobe in enumerate(lobes):
+        if i not in own:
+            own[i] = _with_own_columns(lobe.k, count)
+        for name in _SCALES:
+            if hasattr(own[i], name):
+                getattr(own[i], name)[:, lanes.take(over)] *= factor.take(over)
+
+
+def _rows(k, lanes):
+    """The rows `lanes` of a table, or the only row that it has."""
+    return k.take(lanes) if any(column.shape[-1] > 1 for column in vars(k).values()) else k
 
 
 def _with_own_columns(k, n):

@@ -5,11 +5,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..arrays import Columns, columns
-from ..constants import INV_PI, LUMINANCE
+from ..constants import INV_PI
+from ..interfaces import is_straight
 from ..maths.frames import to_world
 from ..maths.vectors import dot
 from ..maths.warps import square_to_uniform_hemisphere
-from ..scene.textured import averaged, is_number, textures_of
+from ..scene.textured import averaged, is_number, luminance, textures_of
+from .texturing import clean
+
+_FAINT = 2.0**-10
+"""Radiance that a texture counts with where it is found black: it may still glow in places."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,12 +27,20 @@ class Lobe:
 
 @dataclass(frozen=True, slots=True)
 class Textured:
-    """A column of one lobe's table that a texture fills in; `is_number`: with its luminance."""
+    """A column of one lobe's table that a texture fills in; `is_number`: with its luminance; cut off to `limits`, if any."""
 
     lobe: int
     column: str
     is_number: bool
     texture: object
+    limits: tuple
+
+    def value(self, at):
+        """What stands in the column at `Points`."""
+        value = clean(at.value(self.texture))
+        if self.is_number:
+            value = luminance(value)
+        return np.clip(value, *self.limits) if self.limits else value
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,6 +55,7 @@ class Materials:
     ambient     (3, M) float32, k_a
     kind        `Reflection`, or `TwoSided` where a lobe with a width transmits
     textured    {row: the `Textured` columns of that material}
+    straight    {row: the transmittances of that material's lobes that light passes straight on, if it has textured ones}
     glowing     {row: the texture that is the emission of that material}
     relief      {row: the reliefs of that material}
     wanted      {attribute of meshes: rows of the materials whose textures are looked up there}
@@ -56,6 +70,7 @@ class Materials:
     ambient: np.ndarray
     kind: type
     textured: dict
+    straight: dict
     glowing: dict
     relief: dict
     wanted: dict
@@ -65,29 +80,32 @@ class Materials:
         """Compile `materials`; `bsdfs` are the plug-ins to make room for, wanted or not, `without` parameters nobody asks for."""
         bsdfs = sorted(bsdfs, key=lambda bsdf: bsdf.is_specular)
         slots = [(bsdf, i) for bsdf in bsdfs for i in range(max(1, max(_count(m, bsdf) for m in materials)))]
-        lobes, albedos, textured = [], np.zeros((len(slots), len(materials))), {}
+        lobes, albedos, textured = [], np.zeros((len(slots), len(materials)), np.float32), {}
         for slot, (bsdf, i) in enumerate(slots):
             chosen = [next(iter([lobe for lobe in m.lobes if type(lobe) is bsdf][i:]), bsdf.black()) for m in materials]
             for row, lobe in enumerate(chosen):
                 for name, texture in textures_of(lobe).items():
-                    textured.setdefault(row, []).append(Textured(slot, name, is_number(lobe, name), texture))
+                    limits = getattr(bsdf, "limits", {}).get(name, ())
+                    textured.setdefault(row, []).append(Textured(slot, name, is_number(lobe, name), texture, limits))
             chosen = [averaged(lobe) for lobe in chosen]
             rows = [{name: value for name, value in lobe.row().items() if name not in without} for lobe in chosen]
             lobes.append(Lobe(bsdf, columns(rows)))
-            albedos[slot] = [np.dot(LUMINANCE, lobe.albedo()) for lobe in chosen]
-        total = albedos.sum(axis=0)
-        shares = np.where(total > 0, albedos / np.where(total > 0, total, 1), 1 / max(len(slots), 1)).astype(np.float32)
+            albedos[slot] = luminance(bsdf.albedo(lobes[-1].k))
+        shares = _shares(albedos)
         emission, ambient = (_colours(getattr(averaged(m), name) for m in materials) for name in ("emission", "ambient"))
         kind = TwoSided if any(bsdf.transmits and not bsdf.is_specular for bsdf in bsdfs) else Reflection
         glowing = {row: textures_of(m)["emission"] for row, m in enumerate(materials) if "emission" in textures_of(m)}
+        unseen = [row for row in glowing if not emission[:, row].any()]
+        emission[:, unseen] = _FAINT
         relief = {row: m.relief for row, m in enumerate(materials) if m.relief}
         wanted = {}
         for row, material in enumerate(materials):
             for attribute in material.attributes:
                 wanted.setdefault(attribute, set()).add(row)
+        straight = {row: [lobe.transmittance for lobe in materials[row].lobes if _is_passed(lobe, bsdfs)] for row in textured}
         shine = emission.copy()
         shine[:, list(glowing)] = 1
-        return cls(tuple(lobes), _thresholds(shares), shares, emission, shine, ambient, kind, textured, glowing, relief, wanted)
+        return cls(tuple(lobes), _thresholds(shares), shares, emission, shine, ambient, kind, textured, straight, glowing, relief, wanted)
 
     @property
     def rough_lobes(self):
@@ -110,9 +128,20 @@ def _colours(colours):
     return np.array([*colours], np.float32).T.reshape(3, -1)
 
 
+def _shares(albedos):
+    """Probabilities (L, M) float32 in proportion to albedos (L, M) float32; all the same where they are 0."""
+    total = albedos.sum(axis=0, dtype=np.float32)
+    return np.where(total > 0, albedos / np.where(total > 0, total, 1), np.float32(1 / max(len(albedos), 1)))
+
+
 def _thresholds(shares):
     """Where the intervals of [0, 1) that belong to shares (L, M) end, but for the last one: (L - 1, M) float32."""
     return np.cumsum(shares, axis=0, dtype=np.float64)[:-1].astype(np.float32)
+
+
+def _is_passed(lobe, bsdfs):
+    """Whether light passes `lobe` on its way, so that there is no room for it among `bsdfs`."""
+    return is_straight(lobe) and type(lobe) not in bsdfs
 
 
 def _count(material, bsdf):
@@ -186,6 +215,11 @@ class Reflection:
         for lobe in self.specular:
             yield from _at_surface(_all(lobe.bsdf.branches), lobe.k, surface, lanes)
 
+    def with_lobes(self, lobes, shares):
+        """The same with other parameters `lobes`, rough ones first, and the probabilities `shares` (L, N) in proportion."""
+        shares, rough = _shares(shares), len(self.rough)
+        return type(self)(tuple(lobes[:rough]), tuple(lobes[rough:]), _thresholds(shares), shares)
+
     def with_indices(self, find, n):
         """The same with the indices of refraction `find`(k), (N,) or (3, N), or (3, 1) for all n lanes, in lobes that have one."""
         return replace(self, specular=tuple(_with_index(lobe, find, n) if hasattr(lobe.k, "ior") else lobe for lobe in self.specular))
@@ -194,10 +228,7 @@ class Reflection:
         """The rough lobes alone."""
         if not self.specular:
             return self
-        shares = self.shares[: len(self.rough)]
-        total = shares.sum(axis=0, dtype=np.float32)
-        shares = np.where(total > 0, shares / np.where(total > 0, total, 1), np.float32(1 / len(self.rough)))
-        return type(self)(self.rough, (), _thresholds(shares), shares)
+        return replace(self, specular=()).with_lobes(self.rough, self.shares[: len(self.rough)])
 
     def _added(self, term, n, wo, wi):
         return sum(getattr(lobe.bsdf, term)(lobe.k, n, wo, wi) for lobe in self.rough)

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..interfaces import albedo_of
 from ..scene.bodies import inside_of, sharing_space, volume
 from ..scene.medium import Medium
 from ..scene.textured import averaged
@@ -86,5 +87,5 @@ class Bodies:
 
 def _index(materials):
     """Index of refraction and spread of what is inside: those of the first surface that has them."""
-    seen = (lobe for m in materials for lobe in map(averaged, m.lobes) if hasattr(lobe, "ior") and any(lobe.albedo()))
+    seen = (lobe for m in materials for lobe in map(averaged, m.lobes) if hasattr(lobe, "ior") and any(albedo_of(lobe)))
     return next(((lobe.ior, lobe.spread) for lobe in seen), (1, 0))

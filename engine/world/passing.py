@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..interfaces import is_straight, lets_shadow_rays_pass
-from ..scene.textured import averaged, brightest, is_texture
+from ..interfaces import albedo_of, is_straight, lets_shadow_rays_pass
+from ..scene.textured import averaged, is_texture, textures_of
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -17,6 +17,8 @@ class Passing:
     shadow         (3, M) float32: the share of light that shadow rays bring through
     alpha          (M,) float32: the share of the surface that is there, 1 for cut-outs
     cutouts        {row: the texture that is the alpha of that material}
+    veils          {row: the textures whose values are to be added to that material's transmittance}
+    shades         {row: the same for `shadow`}
     is_clear       (M,) bool: whether anything goes straight on
     """
 
@@ -25,24 +27,32 @@ class Passing:
     shadow: np.ndarray
     alpha: np.ndarray
     cutouts: dict
+    veils: dict
+    shades: dict
     is_clear: np.ndarray
 
     @classmethod
     def of(cls, materials, tints_glass=False):
         """From `Material` values; `tints_glass` as in `interfaces.Integrator`. Textured transmittances of glass count on average."""
         straight, shadow, other = np.zeros((3, 3, len(materials)))
+        shades = {}
         for i, material in enumerate(materials):
             other[:, i] = material.ambient
             for lobe in material.lobes:
+                is_veil = is_straight(lobe) and is_texture(lobe.transmittance)
+                if is_veil:
+                    shades.setdefault(i, []).append(lobe.transmittance)
                 if is_straight(lobe) and not tints_glass:
-                    straight[:, i] += lobe.transmittance
+                    straight[:, i] += 0 if is_veil else lobe.transmittance
                 else:
-                    other[:, i] += brightest(lobe).albedo()
-                if lets_shadow_rays_pass(lobe, tints_glass):
+                    # All together reflect at most 1, whatever the textures are.
+                    other[:, i] += 1 if textures_of(lobe) else albedo_of(lobe)
+                if lets_shadow_rays_pass(lobe, tints_glass) and not is_veil:
                     shadow[:, i] += averaged(lobe).transmittance
         cutouts = {row: material.alpha for row, material in enumerate(materials) if is_texture(material.alpha)}
         alpha = np.array([1 if row in cutouts else material.alpha for row, material in enumerate(materials)], np.float32)
+        veils = {} if tints_glass else shades
         is_clear = straight.any(axis=0) | (alpha < 1)
-        is_clear[list(cutouts)] = True
+        is_clear[[*cutouts, *veils]] = True
         straight, shadow, other = (share.astype(np.float32) for share in (straight, shadow, other))
-        return cls(straight, other, shadow, alpha, cutouts, is_clear)
+        return cls(straight, other, shadow, alpha, cutouts, veils, shades, is_clear)

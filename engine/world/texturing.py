@@ -1,68 +1,49 @@
 """Textures looked up at surface points."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
 from ..maths.vectors import cross, dot, length
+from ..scene.points import Points
 
 _LONGEST = 2.0**10
 """How much longer than wide footprints may be: grazing rays see the mean of what they pass anyway."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class TexturePoints:
-    """N points on triangles, where textures are evaluated: what they are handed as `at`.
+class TexturePoints(Points):
+    """N points on triangles, where textures are evaluated.
 
     attributes    {key: `Attribute`} of the world
     prim, u, v    (N,) triangles and barycentric coordinates
     across        None, or the half-axes of footprints in barycentric coordinates: two (2, N)
-    Each coordinate system and each texture is worked out once.
     """
 
-    attributes: dict
-    prim: np.ndarray
-    u: np.ndarray
-    v: np.ndarray
-    across: tuple = None
-    _known: dict = field(default_factory=dict)
+    def __init__(self, attributes, prim, u, v, across=None):
+        super().__init__()
+        self.attributes, self.prim, self.u, self.v, self.across = attributes, prim, u, v, across
+
+    @property
+    def count(self):
+        """N."""
+        return self.prim.size
 
     def take(self, lanes):
         """The points `lanes` (M,)."""
         across = self.across and tuple(axis.take(lanes, axis=1) for axis in self.across)
         return TexturePoints(self.attributes, self.prim.take(lanes), self.u.take(lanes), self.v.take(lanes), across)
 
-    def look_up(self, coordinates):
-        """The points (3, N) in `coordinates`, and None or the half-axes of their footprints, two (3, N)."""
-        if coordinates not in self._known:
-            p, along_u, along_v = self.attribute(coordinates.attribute)
-            axes = self.across and tuple(_affine(coordinates.matrix, a * along_u + b * along_v, 0) for a, b in self.across)
-            self._known[coordinates] = _affine(coordinates.matrix, p, 1), axes
-        return self._known[coordinates]
+    def moved(self, du, dv):
+        """The points at du, dv (N,) from these in barycentric coordinates; they may be beyond the edges of their triangles."""
+        return TexturePoints(self.attributes, self.prim, self.u + du, self.v + dv, self.across)
 
-    def value(self, texture):
-        """What `texture` is at the points, (3, N) or (3, 1)."""
-        # By identity: the same texture often stands for several parameters.
-        if id(texture) not in self._known:
-            self._known[id(texture)] = texture.eval(self)
-        return self._known[id(texture)]
+    def beside(self, axis):
+        """The points moved by half-axis 0 or 1 of their footprints."""
+        return self.moved(*self.across[axis])
 
     def attribute(self, key):
         """An attribute at the points, see `Attribute.at`."""
-        if key not in self._known:
-            self._known[key] = self.attributes[key].at(self.prim, self.u, self.v)
-        return self._known[key]
-
-
-def _affine(matrix, p, w):
-    """The rows of `matrix` times (p, w). Term by term, as what a product of matrices rounds depends on the number of lanes."""
-    result = np.empty_like(p)
-    for row, total in zip(matrix, result):
-        total[...] = w * row[3]
-        for factor, coordinate in zip(row, p):
-            if factor:
-                total += np.float32(factor) * coordinate
-    return result
+        return self.once(key, lambda: self.attributes[key].at(self.prim, self.u, self.v))
 
 
 def footprints(e1, e2, wo, width):
@@ -90,6 +71,11 @@ def barycentric(a, e1, e2, n):
     # What is too small for its area to be a number has no parts either.
     area = np.where(np.abs(area) >= np.finfo(np.float32).tiny, area, np.inf)
     return np.stack((dot(cross(a, e2), n), dot(cross(e1, a), n))) / area
+
+
+def clean(value):
+    """What a texture gives as a share of light: what is below 0 or no number counts as 0."""
+    return np.where((value > 0) & (value < np.inf), value, np.float32(0))
 
 
 class EvenGlow:
@@ -127,7 +113,7 @@ class TexturedGlow:
         for row, texture in self.textures.items():
             lanes = np.nonzero(material == row)[0]
             if lanes.size:
-                result[:, lanes] *= np.maximum(points.take(lanes).value(texture), 0)
+                result[:, lanes] *= clean(points.take(lanes).value(texture))
         return result
 
     def lit(self, E, k, p, wi, distance):

@@ -174,6 +174,6 @@ def test_leaving_out_and_batches_change_no_bit(monkeypatch):
 def test_reliefs_ask_by_name_and_are_checked():
     found = Requirements.of(t.facing(FLAT, material(BumpMap(SLOPE))), SMALL).as_dict()
     assert found["relief"] == found["footprints"] == ["bent"]
-    for wrong, word in ((BumpMap(SLOPE, np.inf), "distance"), (NormalMap(SLOPE, -1.0), "strength"), (BumpMap(0.5), "texture")):
+    for wrong, word in ((BumpMap(SLOPE, np.inf), "distance"), (NormalMap(SLOPE, -1.0), "strength"), (BumpMap((1.0, 2.0)), "input")):
         with pytest.raises(SceneError, match=word):
             h.pixels(t.facing(FLAT, material(wrong)), SMALL)

@@ -6,6 +6,7 @@ import bpy
 import pytest
 
 from glanz.engine import BlinnPhong, Dielectric, Lambert, Mirror, Phong, PhongLecture, PhongTransmission, SceneError
+from glanz.engine.interfaces import albedo_of
 from glanz.engine.scene.validate import validate
 from glanz.tests import helpers as h
 from glanz.tests.addon import blender
@@ -110,7 +111,7 @@ def test_too_much_light_is_darkened_and_named_with_its_sum(normalisation, total,
     assert words in warnings[0]
     assert f"is {total:g}, more than 1: material 'Ball'" in warnings[0]
     assert "darkened: material 'Ball'" in warnings[1]
-    assert sum(lobe.albedo()[0] for lobe in material.lobes) == pytest.approx(1)
+    assert sum(albedo_of(lobe)[0] for lobe in material.lobes) == pytest.approx(1)
     assert material.lobes[0].reflectance[0] == pytest.approx(0.4 / total)
 
 

@@ -4,8 +4,9 @@ import bpy
 import numpy as np
 import pytest
 
-from glanz.engine import CheckerTexture, GradientTexture, ImageTexture, Lambert, LambertTransmission, LinearTexture, NoiseTexture, Phong
+from glanz.engine import CheckerTexture, GradientTexture, ImageTexture, Lambert, LambertTransmission, LinearTexture, Phong
 from glanz.tests.addon import blender
+from glanz.tests.textured import extremes
 
 PIXELS = np.random.default_rng(1).random((4, 6, 4)).astype(np.float32)
 
@@ -79,14 +80,13 @@ def test_bytes_arrive_as_they_are_encoded(space):
     assert (texture.extension, texture.is_smooth, texture.coordinates.attribute) == ("repeat", True, ("uv", ""))
 
 
-def test_floats_arrive_linear_and_what_is_brighter_than_1_is_cut_off_as_a_reflectance():
+def test_floats_arrive_linear_also_what_is_brighter_than_1():
     material, _, node = textured("Image")
     node.image = new_image(is_float=True, pixels=2 * PIXELS)
     o, warnings = exported(material)
-    assert warnings == ("Color of Diffuse BSDF has a texture brighter than 1 or below 0, which is cut off: material 'Mat'",)
+    assert warnings == ()
     texture = o.materials[0].lobes[0].reflectance
-    assert texture.is_clipped
-    np.testing.assert_array_equal(texture.textures[0].bitmap.pixels, 2 * PIXELS[..., :3].transpose(2, 0, 1))
+    np.testing.assert_array_equal(texture.bitmap.pixels, 2 * PIXELS[..., :3].transpose(2, 0, 1))
 
 
 def test_alpha_weighs_bytes_unless_it_is_a_channel_of_its_own():
@@ -121,7 +121,7 @@ def test_a_missing_image_is_magenta_and_told_once(with_name):
     assert "magenta" in warnings[0]
     assert ("'Lost'" in warnings[0]) == with_name
     (lobe,) = o.materials[0].lobes
-    assert lobe.reflectance.average() == (1, 0, 1)
+    assert extremes(lobe.reflectance) == ((1, 0, 1), (1, 0, 1))
 
 
 def test_an_image_is_loaded_once_for_all_materials():
@@ -188,7 +188,8 @@ def test_the_factor_of_a_checker_is_black_and_white():
 def test_noise_takes_its_numbers():
     numbers = {"Detail": 3.5, "Roughness": 0.75, "Lacunarity": 2.5, "Distortion": 0.25}
     texture = reflectance(textured("Noise", Scale=3, **numbers)[0])
-    assert texture == NoiseTexture(texture.coordinates, *numbers.values(), True, True)
+    assert [getattr(texture, name.lower()) for name in numbers] == [*numbers.values()]
+    assert texture.is_normalized and texture.is_coloured
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     material, _, node = textured("Noise", "Fac")
     node.noise_type, node.noise_dimensions = "RIDGED_MULTIFRACTAL", "4D"
@@ -290,7 +291,7 @@ def test_the_base_colour_of_principled_may_be_a_texture():
     diffuse, glossy = (lobes[kind].reflectance for kind in (Lambert, Phong))
     assert type(diffuse) is type(glossy) is LinearTexture
     assert diffuse.textures[0] is glossy.textures[0]
-    assert max(np.add(diffuse.bounds()[1], glossy.bounds()[1])) <= 1 + 1e-9
+    assert max(extremes(LinearTexture((diffuse, glossy), (1.0, 1.0)))[1]) <= 1 + 1e-6
     assert glossy.factors[0] == pytest.approx((0.25,) * 3)
 
 
@@ -299,7 +300,7 @@ def test_emission_may_be_a_texture_and_is_scaled_by_its_strength():
     blender.node_input(next(n for n in tree.nodes if n.type == "EMISSION"), "Strength").default_value = 5
     o, warnings = exported(material)
     assert warnings == ()
-    assert o.materials[0].emission.bounds() == ((0, 0, 0), (5, 5, 5))
+    assert extremes(o.materials[0].emission) == ((0, 0, 0), (5, 5, 5))
 
 
 def test_a_mix_scales_textures():
@@ -309,8 +310,8 @@ def test_a_mix_scales_textures():
     tree.links.new(tree.nodes.new("ShaderNodeBsdfDiffuse").outputs[0], mix.inputs[2])
     tree.links.new(mix.outputs[0], tree.get_output_node("CYCLES").inputs["Surface"])
     texture = reflectance(material)
-    assert texture.bounds()[0] == pytest.approx((0.2,) * 3)
-    assert texture.bounds()[1] == pytest.approx((0.95,) * 3)
+    assert extremes(texture)[0] == pytest.approx((0.2,) * 3)
+    assert extremes(texture)[1] == pytest.approx((0.95,) * 3)
 
 
 def test_worlds_and_lights_do_not_read_textures():

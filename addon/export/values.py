@@ -1,0 +1,102 @@
+"""Reading the values of sockets: constants, or the engine's textures where nodes make them vary."""
+
+from ...engine import Average, Luminance, folded, is_texture
+from . import nodes_colours, nodes_converters, nodes_images, nodes_inputs, nodes_patterns
+from .bitmaps import Bitmaps
+from .colours import typical, varies
+from .nodes import Links, input_by_identifier
+
+_TABLE = {
+    **nodes_colours.TABLE,
+    **nodes_converters.TABLE,
+    **nodes_images.TABLE,
+    **nodes_inputs.TABLE,
+    **nodes_patterns.TABLE,
+}
+"""Node type -> function (reader, node, identifier of the output) -> value, in the kind of the output's socket."""
+_TRIPLES = ("RGBA", "VECTOR")
+
+
+class Reader(Links):
+    """Reads the values of sockets: a number, three numbers, a texture, or `Coordinates`, which stand for vectors.
+
+    bitmaps  the images of textures; None: whoever asks has no points to look textures up at
+    known    {(groups, node, output): value}: what feeds several sockets is one value for all
+    """
+
+    def __init__(self, owner, findings, bitmaps=None, groups=(), trail=(), known=None):
+        super().__init__(owner, findings, groups, trail)
+        self.has_points = bitmaps is not None
+        self.bitmaps = bitmaps if self.has_points else Bitmaps(findings)
+        self._known = {} if known is None else known
+
+    def _elsewhere(self, groups, trail):
+        reader = Reader(self.owner, self.findings, self.bitmaps, groups, trail, self._known)
+        reader.has_points = self.has_points
+        return reader
+
+    def value(self, node, identifier, default=0.0):
+        """The value of an input in the kind of its socket; `default` where this version of Blender has no such input."""
+        socket = input_by_identifier(node, identifier)
+        return default if socket is None else self.value_of(socket, default)
+
+    def vector(self, node, default, identifier="Vector"):
+        """The same for the vector at which a texture is looked up: `default` where nothing feeds it."""
+        return self.value(node, identifier, default) if self.is_linked(node, identifier) else default
+
+    def colour(self, node, identifier, default=(0.0, 0.0, 0.0)):
+        """The value of an input as a constant (r, g, b); what varies counts with its average, and is noted."""
+        value = self._constant(node, identifier, default)
+        return value if isinstance(value, tuple) else (value,) * 3
+
+    def number(self, node, identifier, default=0.0):
+        """The value of an input as a constant number; what varies counts with its average, and is noted."""
+        value = self._constant(node, identifier, default)
+        return _as_kind(value, "RGBA", "VALUE") if isinstance(value, tuple) else value
+
+    def value_of(self, socket, default=0.0):
+        """The value of an input `socket`."""
+        reader, end, output = self.source(socket)
+        if output is not None:
+            found = reader._read(output)
+            if found is not None and (self.has_points or not varies(found)):
+                return _as_kind(found, output.type, socket.type)
+            where = f"{socket.identifier} of {socket.node.bl_label}"
+            self.note(f"{where} is linked to {output.node.bl_label}, which is not read; the socket's own value is used")
+            end = socket
+        return _as_kind(_own_value(end, default), end.type, socket.type)
+
+    def _constant(self, node, identifier, default):
+        value = self.value(node, identifier, default)
+        if not varies(value):
+            return value
+        self.note(f"{identifier} of {node.bl_label} varies, which is not rendered; its average is used")
+        return typical(value)
+
+    def _read(self, output):
+        """The value of an output, or None where its node is not known, or feeds itself."""
+        node = output.node
+        key = (tuple(group.as_pointer() for group in self.groups), node.as_pointer(), output.identifier)
+        if key not in self._known:
+            read, inside = _TABLE.get(node.type), self.beyond(node)
+            if inside is None:
+                return None
+            value = read and read(inside, node, output.identifier)
+            self._known[key] = folded(value) if is_texture(value) else value
+        return self._known[key]
+
+
+def _as_kind(value, source, target):
+    """A value of a socket of type `source` as one of type `target` takes it."""
+    if target in _TRIPLES:
+        return value if varies(value) or isinstance(value, tuple) else (value,) * 3
+    if source not in _TRIPLES or not (varies(value) or isinstance(value, tuple)):
+        return value
+    return folded((Luminance if source == "RGBA" else Average)(value))
+
+
+def _own_value(socket, default):
+    value = getattr(socket, "default_value", default)
+    if isinstance(value, (bool, int, float)):
+        return float(value)
+    return tuple(float(c) for c in value)[:3]

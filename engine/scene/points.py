@@ -1,0 +1,114 @@
+"""Points at which textures are evaluated, and what is known of a texture where there are none."""
+
+import weakref
+
+import numpy as np
+
+from .coordinates import Coordinates
+
+_PROBES = 256
+_STEPS = (0.8191725133961645, 0.6710436067037893, 0.5497004779019703)
+"""Powers of 1 / g with g^4 = g + 1: what is left of their multiples below 1 covers the cube evenly (Roberts 2018)."""
+
+
+class Points:
+    """N points; what a texture is handed as `at`. Each coordinate system and each texture is worked out once.
+
+    Who inherits offers `attribute`(key), see `world.attributes.Attribute.at`; `across`, None or the half-axes of footprints
+    in units of what attributes change along; and `beside`(axis), the points moved by half-axis 0 or 1.
+    """
+
+    def __init__(self):
+        self._known = {}
+
+    def value(self, x):
+        """What an input is at the points: float32 (1, N) or (3, N), one column where it is the same for all."""
+        if isinstance(x, Coordinates):
+            return self.look_up(x)[0]
+        if not hasattr(x, "eval"):
+            return np.array(x, np.float32).reshape(-1, 1)
+        # By identity: the same texture often stands for several inputs.
+        return self.once(id(x), lambda: x.eval(self))
+
+    def once(self, key, function):
+        """What `function`() returns, called the first time only that this `key` is asked for."""
+        if key not in self._known:
+            self._known[key] = function()
+        return self._known[key]
+
+    def look_up(self, where):
+        """The points (3, N) that `where` stands for, and None or the half-axes of their footprints, two (3, N).
+
+        `where` is `Coordinates`, or an input; how far that changes over a footprint is seen by going there.
+        """
+        if isinstance(where, Coordinates):
+            return self.once(where, lambda: self._placed(where))
+        p = self.value(where)
+        if self.across is None:
+            return _columns(p, self.count), None
+        axes = tuple(self.once(axis, lambda axis=axis: self.beside(axis)).value(where) - p for axis in (0, 1))
+        return _columns(p, self.count), tuple(_columns(a, self.count) for a in axes)
+
+    def _placed(self, coordinates):
+        p, along_u, along_v = self.attribute(coordinates.attribute)
+        axes = self.across and tuple(_affine(coordinates.matrix, a * along_u + b * along_v, 0) for a, b in self.across)
+        return _affine(coordinates.matrix, p, 1), axes
+
+
+class Probes(Points):
+    """Points all over the unit cube, where all attributes are the same; their footprints along x and y cover it."""
+
+    count = _PROBES
+
+    def __init__(self, moved=(0.0, 0.0)):
+        super().__init__()
+        step = np.array(_STEPS)[:, None]
+        self._p = np.mod(0.5 + step * np.arange(_PROBES), 1).astype(np.float32)
+        self._p[:2] += np.array(moved, np.float32)[:, None]
+        half = np.full((1, _PROBES), 0.5 * _PROBES**-0.5, np.float32)
+        none = np.zeros_like(half)
+        self.across = np.concatenate((half, none)), np.concatenate((none, half))
+
+    def attribute(self, key):
+        """See `world.attributes.Attribute.at`: the points themselves."""
+        x, y = np.eye(3, dtype=np.float32)[:2, :, None]
+        return self._p, x, y
+
+    def beside(self, axis):
+        """The probes moved by half-axis 0 or 1."""
+        return Probes(self.across[axis][:, 0])
+
+
+_averages = weakref.WeakKeyDictionary()
+
+
+def average_of(texture):
+    """The mean of a texture over `Probes`, (1,) or (3,) float64; what is no number counts as 0."""
+    if texture not in _averages:
+        with np.errstate(all="ignore"):
+            value = Probes().value(texture)
+        _averages[texture] = np.where(np.isfinite(value), value, 0).mean(axis=1, dtype=np.float64)
+    return _averages[texture]
+
+
+def constant_of(texture):
+    """A pure texture of constants as the constant that it is: a number or three."""
+    with np.errstate(all="ignore"):
+        value = Points().value(texture)[:, 0].astype(np.float64)
+    return float(value[0]) if value.size == 1 else tuple(value.tolist())
+
+
+def _columns(a, n):
+    """`a` (1 or 3, 1 or n) as (3, n)."""
+    return np.broadcast_to(a, (3, n))
+
+
+def _affine(matrix, p, w):
+    """The rows of `matrix` times (p, w). Term by term, as what a product of matrices rounds depends on the number of lanes."""
+    result = np.empty_like(p)
+    for row, total in zip(matrix, result):
+        total[...] = w * row[3]
+        for factor, coordinate in zip(row, p):
+            if factor:
+                total += np.float32(factor) * coordinate
+    return result
