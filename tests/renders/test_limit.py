@@ -7,7 +7,7 @@ from glanz.engine import Coordinates, GradientTexture, Lambert, LinearTexture, M
 from glanz.engine.wavefront import texturing
 from glanz.tests import helpers as h, textured as t
 
-SQUARE = t.with_uvs(h.quad((-1, -1, 0), (2, 0, 0), (0, 2, 0)))
+SQUARE = t.with_uvs(h.quad((0, 0, 0), (2, 0, 0), (0, 2, 0)))
 RAMP = GradientTexture("linear", Coordinates())
 LIMITED = {
     "one lobe": (Lambert(LinearTexture((RAMP,), (2.0,))), lambda x: np.minimum(2 * x, 1)),
