@@ -27,8 +27,10 @@ class Points:
             return self.look_up(x)[0]
         if not hasattr(x, "eval"):
             return np.array(x, np.float32).reshape(-1, 1)
-        # By identity: the same texture often stands for several inputs.
-        return self.once(id(x), lambda: x.eval(self))
+        # Textures are equal to none but themselves. (Not `once`: graphs are deep, and Python's stack is not.)
+        if x not in self._known:
+            self._known[x] = x.eval(self)
+        return self._known[x]
 
     def once(self, key, function):
         """What `function`() returns, called the first time only that this `key` is asked for."""
