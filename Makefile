@@ -27,12 +27,13 @@ READY := $(VENV)/.ready-$(VERSION)
 RUN := $(VENV)/bin/python
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render test bench gallery extension extension-linux lint clean distclean
+.PHONY: help setup render test bench gallery nodes extension extension-linux lint clean distclean
 
 help:
 	@echo "make render           render sample_scenes/cornell_box.blend to out/"
 	@echo "make test             run all tests"
 	@echo "make bench            measure speed against Cycles"
+	@echo "make nodes            compare every node with Cycles for docs/nodes.md"
 	@echo "make gallery          render the pictures of docs/gallery.md"
 	@echo "make extension        build the Blender extension for every platform in dist/"
 	@echo "make extension-linux  build it for Linux only"
@@ -61,6 +62,9 @@ test: $(READY)
 
 bench: $(READY)
 	$(RUN) -m benchmarks
+
+nodes: $(READY)
+	$(RUN) tools/node_table.py
 
 gallery: $(READY)
 	$(RUN) tools/gallery.py

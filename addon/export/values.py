@@ -6,7 +6,7 @@ from .bitmaps import Bitmaps
 from .colours import typical, varies
 from .nodes import Links, input_by_identifier
 
-_TABLE = {
+TABLE = {
     **nodes_colours.TABLE,
     **nodes_converters.TABLE,
     **nodes_images.TABLE,
@@ -78,7 +78,7 @@ class Reader(Links):
         node = output.node
         key = (tuple(group.as_pointer() for group in self.groups), node.as_pointer(), output.identifier)
         if key not in self._known:
-            read, inside = _TABLE.get(node.type), self.beyond(node)
+            read, inside = TABLE.get(node.type), self.beyond(node)
             if inside is None:
                 return None
             value = read and read(inside, node, output.identifier)

@@ -69,7 +69,7 @@ def inputs_of(texture):
         if f.type is object:
             yield getattr(texture, f.name)
         elif isinstance(value := getattr(texture, f.name), tuple):
-            yield from filter(is_texture, value)
+            yield from (x for x in value if is_texture(x) or isinstance(x, Coordinates))
 
 
 def with_inner(texture):
@@ -92,7 +92,7 @@ def folded(texture):
 
 def coordinates_of(texture):
     """The different `Coordinates` that `texture` looks itself up at."""
-    found = (getattr(part, f.name) for part in with_inner(texture) for f in dataclasses.fields(part))
+    found = (value for part in with_inner(texture) for value in inputs_of(part))
     return tuple(dict.fromkeys(value for value in found if isinstance(value, Coordinates)))
 
 
