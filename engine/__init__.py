@@ -36,6 +36,7 @@ from .scene.relief import BumpMap, NormalMap
 from .scene.textured import folded, is_texture, textures_of
 from .textures.average import Average
 from .textures.checker import CheckerTexture
+from .textures.environment import EnvironmentTexture
 from .textures.gradient import GradientTexture
 from .textures.image import ImageTexture
 from .textures.linear import LinearTexture
@@ -60,6 +61,7 @@ __all__ = [
     "CosineSpotLight",
     "Dielectric",
     "EnvironmentMap",
+    "EnvironmentTexture",
     "FileError",
     "GlanzError",
     "GradientTexture",

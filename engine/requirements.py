@@ -88,9 +88,9 @@ class Requirements:
             if light.has_extent():
                 ask(needs.LIGHT_HITS, light.name)
         world = scene.world
-        if any(world.radiance):
+        if not is_texture(world.radiance) and any(world.radiance):
             ask(needs.BACKGROUND, world.name)
-        if world.environment is not None and world.environment.gives_light:
+        if world.may_vary:
             ask(needs.ENVIRONMENT, world.name)
         emitters = tuple(found.get(needs.EMISSIVE_MESHES, ()))
         sources = (*(light.name for light in shining), *found.get(needs.ENVIRONMENT, ()), *emitters)

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...engine import Dielectric, Lambert, LambertTransmission, Mirror, Phong, Transparent, albedo_of, textures_of
-from .colours import WHITE, added, as_texture, cut, inverted, times, typical, varies
+from .colours import WHITE, added, as_texture, cut, inverted, times, varies
 
 SHARPEST_EXPONENT = 1e6
 """The engine's sharpest Phong lobe, 0.1 degrees wide; what would be sharper (roughness below 0.0376) is a mirror."""
@@ -15,30 +15,26 @@ SHARPEST_EXPONENT = 1e6
 class Closure:
     """The sum of `lobes` (BSDF values) plus `emission` [W m^-2 sr^-1].
 
-    Colours are constants or textures, see `colours`. `environments` are `EnvironmentMap` values, which add to the emission of
-    a world. `reliefs` are the different reliefs, each a tuple, of its shaders.
+    Colours are constants or textures, see `colours`. `reliefs` are the different reliefs, each a tuple, of its shaders.
     """
 
     lobes: tuple = ()
     emission: object = (0.0, 0.0, 0.0)
-    environments: tuple = ()
     reliefs: tuple = ()
 
     def __add__(self, other):
         return Closure(
             self.lobes + other.lobes,
             added(self.emission, other.emission),
-            self.environments + other.environments,
             tuple(dict.fromkeys(self.reliefs + other.reliefs)),
         )
 
     def scaled(self, factor):
-        """Everything times `factor`, a number, a colour or a texture; environments by its average."""
+        """Everything times `factor`, a number, a colour or a texture."""
         return replace(
             self,
             lobes=tuple(scaled_lobe(lobe, factor) for lobe in self.lobes),
             emission=times(self.emission, factor),
-            environments=tuple(replace(e, strength=tuple(np.multiply(e.strength, typical(factor)))) for e in self.environments),
         )
 
     def albedo(self):

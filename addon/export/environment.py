@@ -1,71 +1,49 @@
-"""Environment textures as the engine's pictures of all directions."""
+"""Environment Texture nodes, and worlds that are but their picture."""
+
+from dataclasses import replace
 
 import numpy as np
-from mathutils import Euler
 
-from ...engine import EnvironmentMap
+from ...engine import Coordinates, EnvironmentMap, EnvironmentTexture, LinearTexture
+from .colours import varies
 from .images import linear_pixels
-from .nodes import input_by_identifier
 
+_DIRECTION = Coordinates(source="generated")
 _INTERPOLATIONS = {"Linear": "linear", "Closest": "closest"}
 
 
-def export_environment(reader, node, strength):
-    """The `EnvironmentMap` of an Environment Texture node, times the number `strength`."""
+def _environment(reader, node, output):
     pixels = linear_pixels(node.image, reader.findings, reader.owner)[:3]
     if node.interpolation not in _INTERPOLATIONS:
         reader.note(f"the interpolation {node.interpolation} of Environment Texture is rendered as Linear")
     if node.projection == "MIRROR_BALL":
         pixels = _unrolled(pixels)
-    return EnvironmentMap(
-        name=node.image.name if node.image else node.bl_label,
-        pixels=pixels,
-        world_from_map=_map_from_world(reader, input_by_identifier(node, "Vector")).T,
-        strength=(float(strength),) * 3,
-        interpolation=_INTERPOLATIONS.get(node.interpolation, "linear"),
-    )
+    name = node.image.name if node.image else node.bl_label
+    picture = EnvironmentMap(name=name, pixels=pixels, interpolation=_INTERPOLATIONS.get(node.interpolation, "linear"))
+    return EnvironmentTexture(picture, reader.vector(node, _DIRECTION))
 
 
-def _map_from_world(reader, socket):
-    """The orthogonal matrix (3, 3) that the nodes behind a vector input turn directions with."""
-    reader, _, output = reader.source(socket)
-    if output is None:
-        return np.eye(3)
-    node = output.node
-    if node.type == "TEX_COORD":
-        if output.identifier != "Generated":
-            reader.note(f"the coordinates {output.identifier} of the environment are rendered as Generated")
-        return np.eye(3)
-    if node.type != "MAPPING":
-        reader.note(f"{node.bl_label} before the environment's picture is left out")
-        return np.eye(3)
-    before = reader.beyond(node)
-    if before is None:
-        return np.eye(3)
-    return _orthogonal(reader, *_mapping(reader, node)) @ _map_from_world(before, input_by_identifier(node, "Vector"))
+TABLE = {"TEX_ENVIRONMENT": _environment}
 
 
-def _mapping(reader, node):
-    """Rotation (3, 3), and the whole linear part (3, 3) of a Mapping node."""
-    rotation = np.array(Euler(reader.colour(node, "Rotation")).to_matrix(), np.float64)
-    scale = np.array(reader.colour(node, "Scale", (1.0, 1.0, 1.0)))
-    kind = node.vector_type
-    if kind in ("POINT", "TEXTURE") and any(reader.colour(node, "Location")):
-        reader.note("Location of Mapping is left out for the environment: the picture is infinitely far away")
-    if not scale.all():
-        return (rotation.T if kind == "TEXTURE" else rotation), np.zeros((3, 3))
-    if kind == "TEXTURE":
-        return rotation.T, np.diag(1 / scale) @ rotation.T
-    return rotation, rotation @ np.diag(1 / scale if kind == "NORMAL" else scale)
+def as_picture(radiance):
+    """(radiance, `EnvironmentMap` or None): what a world's colour is without the one picture that it may show turned and scaled.
 
-
-def _orthogonal(reader, rotation, linear):
-    """`linear` (3, 3) without its size, which no direction has; `rotation` instead, with a note, where it also distorts."""
-    size = np.cbrt(np.abs(np.linalg.det(linear)))
-    if size > 0 and np.allclose(linear.T @ linear, size * size * np.eye(3), rtol=0, atol=1e-5 * size * size):
-        return linear / size
-    reader.note("Scale of Mapping is left out for the environment: it would distort the picture")
-    return rotation
+    A picture is chosen by texel, which finds more light than the samples of a texture.
+    """
+    terms = radiance if type(radiance) is LinearTexture and not radiance.is_clipped else LinearTexture((radiance,), (1.0,))
+    if len(terms.textures) != 1 or varies(terms.factors[0]) or varies(terms.offset):
+        return radiance, None
+    (texture,), (factor,) = terms.textures, terms.factors
+    if type(texture) is not EnvironmentTexture or not isinstance(texture.coordinates, Coordinates):
+        return radiance, None
+    matrix = np.array(texture.coordinates.matrix)
+    size = np.cbrt(np.abs(np.linalg.det(matrix[:3, :3])))
+    turn = matrix[:3, :3] / (size or 1)
+    if matrix[:3, 3].any() or not np.allclose(turn.T @ turn, np.eye(3), rtol=0, atol=1e-5):
+        return radiance, None
+    strength = tuple(np.broadcast_to(np.asarray(factor, np.float64), 3).tolist())
+    return tuple(np.broadcast_to(terms.offset, 3).tolist()), replace(texture.picture, world_from_map=turn.T, strength=strength)
 
 
 def _unrolled(ball):

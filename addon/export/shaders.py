@@ -5,7 +5,6 @@ from dataclasses import replace
 from . import closure
 from .closure import Closure
 from .colours import varies
-from .environment import export_environment
 from .nodes import input_by_identifier
 from .principled import principled_lobes
 from .relief import relief_of
@@ -72,16 +71,6 @@ def _emission(reader, node):
     return closure.emission(reader.value(node, "Color"), reader.value(node, "Strength"))
 
 
-def _background(reader, node):
-    """Emission of a world, which may be a picture."""
-    behind, _, output = reader.source(input_by_identifier(node, "Color"))
-    if output is None or output.node.type != "TEX_ENVIRONMENT":
-        return _emission(reader, node)
-    if (behind := behind.beyond(output.node)) is None:
-        return Closure()
-    return Closure(environments=(export_environment(behind, output.node, reader.number(node, "Strength")),))
-
-
 def _transparent(reader, node):
     return closure.transparent(reader.value(node, "Color"))
 
@@ -138,7 +127,7 @@ _TABLE = {
     "BSDF_TRANSLUCENT": _translucent,
     "BSDF_TRANSPARENT": _transparent,
     "EMISSION": _emission,
-    "BACKGROUND": _background,
+    "BACKGROUND": _emission,
     "MIX_SHADER": _mix,
     "ADD_SHADER": _add,
 }

@@ -1,12 +1,13 @@
 """Reading the values of sockets: constants, or the engine's textures where nodes make them vary."""
 
 from ...engine import Average, Luminance, folded, is_texture
-from . import nodes_colours, nodes_converters, nodes_images, nodes_inputs, nodes_patterns
+from . import environment, nodes_colours, nodes_converters, nodes_images, nodes_inputs, nodes_patterns
 from .bitmaps import Bitmaps
 from .colours import typical, varies
 from .nodes import Links, input_by_identifier
 
 TABLE = {
+    **environment.TABLE,
     **nodes_colours.TABLE,
     **nodes_converters.TABLE,
     **nodes_images.TABLE,

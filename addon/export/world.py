@@ -1,8 +1,10 @@
-"""Blender's world as the engine's: an even radiance from every direction, and a picture."""
+"""Blender's world as the engine's: an even radiance from every direction, a picture, or a texture of all directions."""
 
 from dataclasses import replace
 
 from ...engine import World
+from .bitmaps import Bitmaps
+from .environment import as_picture
 from .material import clean_colour
 from .nodes import has_nodes, output_node
 from .shaders import surface_of
@@ -22,16 +24,8 @@ def export_world(world, findings):
         return World(name=world.name)
     if Reader(owner, findings).is_linked(output, "Volume"):
         findings.note("the volume is left out", owner)
-    surface = surface_of(output, owner, findings)
-    radiance = clean_colour(surface.emission, owner, findings)
-    return World(name=world.name, radiance=radiance, environment=_environment(surface.environments, owner, findings))
-
-
-def _environment(environments, owner, findings):
-    """The one picture that the engine takes, or None."""
-    if not environments:
-        return None
-    if len(environments) > 1:
-        findings.note("of several Environment Textures only the first is rendered", owner)
-    first = environments[0]
-    return replace(first, strength=clean_colour(first.strength, owner, findings))
+    radiance, picture = as_picture(surface_of(output, owner, findings, Bitmaps(findings)).emission)
+    if picture is None:
+        return World(name=world.name, radiance=clean_colour(radiance, owner, findings))
+    strength = clean_colour(picture.strength, owner, findings)
+    return World(name=world.name, radiance=clean_colour(radiance, owner, findings), environment=replace(picture, strength=strength))

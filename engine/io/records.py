@@ -127,6 +127,10 @@ class Decoder:
             raise FileError(f"its {name} {values.get('name', '')!r} is damaged ({error})") from error
 
 
+_TEXTURED = {Material: ("emission", "alpha"), World: ("radiance",)}
+"""The fields of values, beside all parameters of BSDFs, that may be textures."""
+
+
 def _check_field(cls, field, value):
     """Raises FileError unless `value` is of the kind that the field holds by default, or that PARTS names."""
     part = PARTS.get(cls, {}).get(field.name)
@@ -137,7 +141,7 @@ def _check_field(cls, field, value):
     elif cls is LinearTexture and field.name == "factors":
         fits = isinstance(value, tuple) and all(type(f) in TEXTURES.values() or _is_number(f) or _is_alike((0.0,) * 3, f) for f in value)
     elif type(value) in TEXTURES.values():
-        fits = cls in BSDFS.values() or (cls is Material and field.name in ("emission", "alpha"))
+        fits = cls in BSDFS.values() or field.name in _TEXTURED.get(cls, ())
     elif dataclasses.is_dataclass(field.default):
         fits = type(value) is type(field.default)
     elif field.default is not dataclasses.MISSING:

@@ -136,6 +136,12 @@ def _check_world(world, warnings):
     environment = world.environment
     if environment is not None and type(environment) is not EnvironmentMap:
         raise SceneError(f"world '{world.name}': {type(environment).__name__} is not an EnvironmentMap")
+    if is_texture(world.radiance):
+        if environment is not None:
+            raise SceneError(f"world '{world.name}': its radiance is a texture, so it has no environment beside it")
+        for part in with_inner(world.radiance):
+            part.check(world.name)
+        return world
     colours = {"radiance": world.radiance} | ({"strength of the environment": environment.strength} if environment else {})
     for name, colour in colours.items():
         if not _is_colour(colour):

@@ -208,8 +208,8 @@ class Object:
 class World:
     """What surrounds the scene.
 
-    radiance     from every direction [W m^-2 sr^-1], linear Rec. 709
-    environment  an `EnvironmentMap` that adds to it, or None
+    radiance     from every direction [W m^-2 sr^-1], linear Rec. 709; or a texture, all of whose coordinates are the direction, unit
+    environment  an `EnvironmentMap` that adds to a constant radiance, or None
     """
 
     name: str = "World"
@@ -217,7 +217,13 @@ class World:
     environment: object = None
 
     def __post_init__(self):
-        object.__setattr__(self, "radiance", tuple(float(c) for c in self.radiance))
+        if not is_texture(self.radiance):
+            object.__setattr__(self, "radiance", tuple(float(c) for c in self.radiance))
+
+    @property
+    def may_vary(self):
+        """Whether radiance differs by direction, so that it is worth looking for."""
+        return is_texture(self.radiance) or (self.environment is not None and self.environment.gives_light)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -10,7 +10,6 @@ from ..scene.values import Material
 from .accel import Accel
 from .attributes import compile_attributes
 from .emitters import Emitters
-from .environment import Environment
 from .frame import Frame
 from .lights import Lights
 from .materials import Materials
@@ -19,6 +18,7 @@ from .movers import Movers, Moving
 from .moving_lamps import MovingLamps
 from .passing import Passing
 from .placement import place
+from .sky import environment_of
 from .texturing import EVEN, TexturedGlow
 from .touching import moved_apart
 
@@ -164,8 +164,7 @@ def compile_world(
         kept = keep[triangles.first_moving :] - faces
         emitters = emitters.followed_by(MovingLamps.of(movers, moving, glowing, *glows, kept, bool(table.glowing)))
     # Asked for with every feature there is, it may still be missing or black.
-    shines = has_environment and scene.world.environment is not None and scene.world.environment.gives_light
-    environment = Environment.of(scene.world) if shines else None
+    environment = environment_of(scene.world) if has_environment and scene.world.may_vary else None
     passing = passing_of(materials) if passing_of else None
     attributes, lost = compile_attributes(parts, keep, material, table.wanted)
     glow = TexturedGlow(table.glowing, material, attributes) if table.glowing else EVEN
@@ -177,7 +176,7 @@ def compile_world(
         materials=table,
         lights=Lights.of(scene.lights, environment, emitters, frame, radius, has_choice, samples_lights, glow),
         emitters=emitters,
-        background=np.array(scene.world.radiance, np.float32)[:, None],
+        background=np.array((0.0, 0.0, 0.0) if environment else scene.world.radiance, np.float32)[:, None],
         media=Media.of(bodies, row, material, owner[keep], frame.scale) if has_media else None,
         passing=passing,
         attributes=attributes,

@@ -9,7 +9,6 @@ from ..arrays import Columns, columns
 from ..constants import LUMINANCE
 from ..lights.parallelogram import ParallelogramLight
 from ..lights.triangle import TriangleLight
-from .environment import Environment
 from .lamp_search import MOST_ASKED, SHARP, Hittable, search_of
 from .light_choice import ByPlace, OnlyLight
 from .light_tree_choice import ByTree
@@ -94,7 +93,7 @@ class Lights:
             rows = [lamp.row(frame) for lamp in lamps if type(lamp) is kind]
             groups.append(Group(kind, columns(rows), sum(g.count for g in groups), len(rows)))
         if environment:
-            groups.append(Group(Environment, environment, len(lamps), 1))
+            groups.append(Group(type(environment), environment, len(lamps), 1))
         first_patch = sum(group.count for group in groups)
         split = emitters.parallelograms
         for kind, patches in ((ParallelogramLight, slice(0, split)), (TriangleLight, slice(split, emitters.still))):

@@ -4,6 +4,7 @@ import bpy
 import numpy as np
 import pytest
 
+from glanz.engine import EnvironmentTexture
 from glanz.tests.addon import blender
 from glanz.tests.addon.sky import new_image, set_sky
 
@@ -95,35 +96,25 @@ def test_pictures_and_colours_mix_and_add():
     assert world.environment.strength == (2, 2, 2)
     assert world.radiance == pytest.approx((0.5, 1, 2))
     link_shader("ShaderNodeAddShader", first, first)
-    assert "only the first is rendered: world 'World'" in blender.export()[1][0]
+    world = blender.export()[0].world
+    assert world.environment is None
+    assert [type(t) for t in world.radiance.textures] == [EnvironmentTexture] * 2
 
 
 @pytest.mark.parametrize(
-    ("kind", "inputs", "words"),
-    [
-        ("POINT", {"Location": (0, 1, 0)}, "Location of Mapping is left out"),
-        ("TEXTURE", {"Scale": (1, 2, 1)}, "Scale of Mapping is left out"),
-        ("VECTOR", {"Scale": (1, 0, 1)}, "Scale of Mapping is left out"),
-    ],
+    ("kind", "inputs"), [("POINT", {"Location": (0, 1, 0)}), ("TEXTURE", {"Scale": (1, 2, 1)}), ("VECTOR", {"Scale": (1, 0, 1)})]
 )
-def test_what_a_mapping_cannot_do_is_named_and_its_rotation_stays(kind, inputs, words):
+def test_a_picture_that_is_not_just_turned_is_a_texture(kind, inputs):
     set_sky(new_image(picture()), vector_type=kind, Rotation=(0, 0, 0.5), **inputs)
     scene, warnings = blender.export()
-    assert words in warnings[0]
-    assert "world 'World'" in warnings[0]
-    c, s = np.cos(0.5), np.sin(0.5) * (-1 if kind == "TEXTURE" else 1)
-    np.testing.assert_allclose(scene.world.environment.world_from_map, ((c, s, 0), (-s, c, 0), (0, 0, 1)), atol=1e-6)
+    assert warnings == ()
+    assert scene.world.environment is None
+    assert type(scene.world.radiance) is EnvironmentTexture
 
 
 def test_what_an_environment_texture_cannot_do_is_named():
-    texture = set_sky(new_image(picture()), interpolation="Cubic")
-    tree = texture.id_data
-    tree.links.new(tree.nodes.new("ShaderNodeTexCoord").outputs["Camera"], texture.inputs["Vector"])
-    texts = "\n".join(blender.export()[1])
-    assert "interpolation Cubic of Environment Texture is rendered as Linear: world 'World'" in texts
-    assert "coordinates Camera of the environment are rendered as Generated" in texts
-    tree.links.new(tree.nodes.new("ShaderNodeCombineXYZ").outputs[0], texture.inputs["Vector"])
-    assert "Combine XYZ before the environment's picture is left out" in "\n".join(blender.export()[1])
+    set_sky(new_image(picture()), interpolation="Cubic")
+    assert "interpolation Cubic of Environment Texture is rendered as Linear: world 'World'" in "\n".join(blender.export()[1])
 
 
 def test_a_missing_picture_is_magenta_and_named():

@@ -1,0 +1,82 @@
+"""A texture of all directions around a scene as a light: worked out where rays escape, and sampled in proportion to a picture of it."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..constants import LUMINANCE
+from ..maths.equirect import direction_to_square, square_to_direction
+from ..scene.environment import EnvironmentMap
+from ..scene.points import Points
+from ..scene.textured import is_texture
+from .environment import Environment
+from .texturing import clean
+
+SHAPE = (256, 512)
+"""Rows and columns of the picture by which directions are chosen; what it misses is found by scattered rays."""
+_FLOOR = 2.0**-6
+"""Every direction is chosen at least so often, compared to the mean."""
+
+
+class Directions(Points):
+    """Points infinitely far away in the directions d (3, N): what the texture of a world is handed as `at`."""
+
+    across = None
+
+    def __init__(self, d):
+        super().__init__()
+        self.d = d
+
+    @property
+    def count(self):
+        """N."""
+        return self.d.shape[1]
+
+    def attribute(self, key):
+        """Every attribute of a direction is the direction."""
+        none = np.zeros_like(self.d)
+        return self.d, none, none
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sky(Environment):
+    """An `Environment` whose radiance is a `texture`; its picture only says where to look for light."""
+
+    texture: object = None
+
+    @classmethod
+    def of(cls, world):
+        """From a `World` whose radiance is a texture."""
+        middles = np.meshgrid(*((np.arange(n) + 0.5) / n for n in SHAPE[::-1]))
+        d = square_to_direction(*(m.ravel() for m in middles)).astype(np.float32)
+        weight = np.tensordot(LUMINANCE, _radiance(world.radiance, d), 1)
+        weight = np.minimum(weight, np.finfo(np.float32).max * 2.0**-20)
+        mean = weight.mean()
+        weight = np.maximum(weight, mean * _FLOOR if mean > 0 else 1).reshape(SHAPE)
+        picture = EnvironmentMap(name=world.name, pixels=np.broadcast_to(weight, (3, *SHAPE)))
+        found = Environment.of(replace(world, radiance=(0.0, 0.0, 0.0), environment=picture))
+        return cls(**{name: getattr(found, name) for name in Environment.__slots__}, texture=world.radiance)
+
+    def radiance(self, d):
+        """See `Environment.radiance`."""
+        return _radiance(self.texture, d)
+
+    def hit(self, d):
+        """See `Environment.hit`."""
+        u, v = direction_to_square(d)
+        return _radiance(self.texture, d), self._pdf(self._look_up(u, v, weighed=True)[1], v)
+
+    def sample(self, p, u2):
+        """See `interfaces.Light.sample`."""
+        wi, distance, _, pdf = Environment.sample(self, p, u2)
+        return wi, distance, _radiance(self.texture, wi) / pdf, pdf
+
+
+def environment_of(world):
+    """The `Environment` or `Sky` of a `World` that varies."""
+    return Sky.of(world) if is_texture(world.radiance) else Environment.of(world)
+
+
+def _radiance(texture, d):
+    """L (3, N) along d (3, N)."""
+    return np.array(np.broadcast_to(clean(Directions(d).value(texture)), d.shape))
