@@ -35,13 +35,19 @@ from .scene.points import average_of
 from .scene.relief import BumpMap, NormalMap
 from .scene.textured import folded, is_texture, textures_of
 from .textures.average import Average
+from .textures.brick import BrickTexture
 from .textures.checker import CheckerTexture
 from .textures.environment import EnvironmentTexture
+from .textures.gabor import GaborTexture
 from .textures.gradient import GradientTexture
 from .textures.image import ImageTexture
 from .textures.linear import LinearTexture
 from .textures.luminance import Luminance
+from .textures.magic import MagicTexture
 from .textures.noise import NoiseTexture
+from .textures.voronoi import VoronoiTexture
+from .textures.wave import WaveTexture
+from .textures.white_noise import WhiteNoiseTexture
 
 __version__ = VERSION
 
@@ -55,6 +61,7 @@ __all__ = [
     "Average",
     "Bitmap",
     "BlinnPhong",
+    "BrickTexture",
     "BumpMap",
     "CheckerTexture",
     "Coordinates",
@@ -63,6 +70,7 @@ __all__ = [
     "EnvironmentMap",
     "EnvironmentTexture",
     "FileError",
+    "GaborTexture",
     "GlanzError",
     "GradientTexture",
     "Image",
@@ -72,6 +80,7 @@ __all__ = [
     "Lens",
     "LinearTexture",
     "Luminance",
+    "MagicTexture",
     "Material",
     "Medium",
     "Mesh",
@@ -95,6 +104,9 @@ __all__ = [
     "SunLight",
     "Tile",
     "Transparent",
+    "VoronoiTexture",
+    "WaveTexture",
+    "WhiteNoiseTexture",
     "World",
     "albedo_of",
     "average_of",

@@ -1,89 +1,68 @@
-"""Gradient noise (Perlin 2002, "Improving Noise") over Jenkins' hash, with the very numbers of Blender's Noise Texture."""
+"""Gradient noise in one to four dimensions (Perlin 2002, "Improving Noise"), with the very numbers of Blender's Noise Texture."""
 
-import struct
 from functools import lru_cache
 
 import numpy as np
 
+from .cellhash import jenkins, unit
+
 _U = np.uint32
-_SCALE = np.float32(0.982)
-"""Brings the noise of three dimensions into [-1, 1]."""
+_SCALES = {1: np.float32(0.25), 2: np.float32(0.6616), 3: np.float32(0.982), 4: np.float32(0.8344)}
+"""They bring the noise of so many dimensions into [-1, 1]."""
+MEAN_SIZES = {1: 0.2309, 2: 0.2599, 3: 0.2161, 4: 0.1983}
+"""The mean of |noise| in so many dimensions, measured at ten million points."""
 _PERIOD = np.float32(1e5)
+_FAR = np.float32(1e6)
 
 
-def jenkins(*words):
-    """A hash uint32 (N,) of two or three words uint32 (N,): the end of Jenkins' lookup3 (2006), with which Blender hashes."""
-    start = _U((0xDEADBEEF + (len(words) << 2) + 13) & 0xFFFFFFFF)
-    a, b = words[0] + start, words[1] + start
-    c = words[2] + start if len(words) > 2 else np.full_like(a, start)
-    for x, y, bits in ((c, b, 14), (a, c, 11), (b, a, 25), (c, b, 16), (a, c, 4), (b, a, 14), (c, b, 24)):
-        x ^= y
-        x -= (y << _U(bits)) | (y >> _U(32 - bits))
-    return c
-
-
-@lru_cache(maxsize=8)
-def offset(seed):
-    """(3, 1) float32 in [100, 200): where Blender looks up the noise number `seed` of one point."""
-    words = [struct.unpack("<I", struct.pack("<f", value))[0] for value in (float(seed), 0.0, 1.0, 2.0)]
-    hashes = jenkins(np.full(3, words[0], _U), np.array(words[1:], _U))
-    return (100 + 100 * (hashes / 0xFFFFFFFF)).astype(np.float32)[:, None]
+@lru_cache(maxsize=32)
+def offset(seed, dimensions=3):
+    """(D, 1) float32 in [100, 200]: where Blender looks up the noise number `seed` of one point."""
+    axis = (np.arange(dimensions, dtype=np.float32),) if dimensions > 1 else ()
+    return (100 + 100 * unit(np.full(dimensions, seed, np.float32), *axis))[:, None]
 
 
 def noise(p):
-    """Noise in [-1, 1] at p (3, N) float32, (N,): 0 at whole numbers, smooth between them, repeated every 100,000."""
-    p = np.fmod(p, _PERIOD)
+    """Noise in [-1, 1] at p (D, N) float32, (N,): 0 at whole numbers, smooth between them, repeated every 100,000."""
+    is_far = np.abs(p) >= _PERIOD
+    if is_far.any():
+        # Far out there are but whole numbers, where all noise is 0: Blender looks between them.
+        p = np.where(is_far, np.fmod(p, _PERIOD), p) + np.float32(0.5) * (np.abs(p) >= _FAR)
     cell = np.floor(p)
     p = p - cell
     cell = cell.astype(np.int32).view(_U)
-    # The eight corners of the cell along a leading axis: bits of its index are steps along x, y, z.
-    x, y, z = (np.stack((c, c + _U(1))) for c in cell)
-    values = _products(jenkins(*_at_corners(x, y, z)), *_at_corners(*np.stack((p, p - 1), axis=1))).reshape(2, 2, 2, -1)
-    u, v, w = p * p * p * (p * (p * 6 - 15) + 10)
-    values = values[:, :, 0] + u * (values[:, :, 1] - values[:, :, 0])
-    values = values[:, 0] + v * (values[:, 1] - values[:, 0])
-    return _SCALE * (values[0] + w * (values[1] - values[0]))
+    # The corners of the cell along leading axes, the last coordinate first: each is at the low or the high side.
+    corners = [_along(axis, np.stack((c, c + _U(1))), len(p)) for axis, c in enumerate(cell)]
+    ways = [_along(axis, np.stack((x, x - 1)), len(p)) for axis, x in enumerate(p)]
+    values = _products(jenkins(*corners), *ways)
+    for t in p[::-1] ** 3 * (p[::-1] * (p[::-1] * 6 - 15) + 10):
+        values = values[0] + t * (values[1] - values[0])
+    return _SCALES[len(p)] * values
 
 
-def _at_corners(x, y, z):
-    """What belongs to the low and the high side of a cell along each axis (2, N), at its corners (8, N)."""
-    shape = (2, 2, 2, x.shape[1])
-    return [np.broadcast_to(a, shape).reshape(8, -1) for a in (x, y[:, None], z[:, None, None])]
+def _along(axis, sides, dimensions):
+    """What belongs to the low and the high side of a cell (2, N), to be broadcast to all its corners (2, ..., 2, N)."""
+    return sides.reshape((1,) * (dimensions - 1 - axis) + (2,) + (1,) * axis + sides.shape[1:])
 
 
-def _products(hashes, x, y, z):
-    """The scalar products (8, N) of the ways (x, y, z) from the corners with the gradients that the hashes stand for."""
-    kind = hashes & _U(15)
-    first = np.where(kind < 8, x, y)
-    second = np.where(kind < 4, y, np.where((kind == 12) | (kind == 14), x, z))
-    first *= 1 - 2 * (kind & _U(1)).astype(np.float32)
-    second *= 1 - (kind & _U(2)).astype(np.float32)
-    return first + second
+def _products(hashes, *ways):
+    """The scalar products of the ways from the corners with the gradients that the hashes stand for."""
+    if len(ways) == 1:
+        kind = hashes & _U(15)
+        return _signed(1 + (kind & _U(7)).astype(np.float32), kind, 8) * ways[0]
+    kind = hashes & _U((7, 15, 31)[len(ways) - 2])
+    x, y, *rest = ways
+    if not rest:
+        return _signed(np.where(kind < 4, x, y), kind, 1) + _signed(2 * np.where(kind < 4, y, x), kind, 2)
+    if len(rest) == 1:
+        second = np.where(kind < 4, y, np.where((kind == 12) | (kind == 14), x, rest[0]))
+        return _signed(np.where(kind < 8, x, y), kind, 1) + _signed(second, kind, 2)
+    z, w = rest
+    parts = np.where(kind < 24, x, y), np.where(kind < 16, y, z), np.where(kind < 8, z, w)
+    return _signed(parts[0], kind, 1) + _signed(parts[1], kind, 2) + _signed(parts[2], kind, 4)
 
 
-def fractal(p, half, detail, roughness, lacunarity, is_normalized):
-    """The sum over octaves of noise at p (3, N), (N,); `half` (N,) is half the extent of a footprint, or None for points.
-
-    Octaves fade where the footprint grows from a half to one of their cells (clamping: Norton, Rockwood and Skolnick 1982).
-    """
-    total, amplitude, most, scale = np.zeros_like(p[0]), 1.0, 0.0, 1.0
-    octaves = int(detail)
-    rest = detail - octaves
-
-    def octave():
-        value = noise(np.float32(scale) * p)
-        if half is not None:
-            fade = np.clip(2 - np.float32(4 * scale) * half, 0, 1)
-            value *= fade * fade * (3 - 2 * fade)
-        return np.float32(amplitude) * value
-
-    for _ in range(octaves + 1):
-        total += octave()
-        most += amplitude
-        amplitude *= roughness
-        scale *= lacunarity
-    finer = total + octave() if rest else total
-    if is_normalized:
-        finer = np.float32(0.5 / (most + (amplitude if rest else 0))) * finer + np.float32(0.5)
-        total = np.float32(0.5 / most) * total + np.float32(0.5)
-    return total + np.float32(rest) * (finer - total) if rest else total
+def _signed(value, kind, bit):
+    """`value`, negative where `kind` has the `bit`."""
+    # The bit becomes the sign of the float: without branches, and exact.
+    return (value.view(_U) ^ ((kind & _U(bit)) << _U(32 - bit.bit_length()))).view(np.float32)

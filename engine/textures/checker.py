@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..errors import SceneError
 from ..scene.coordinates import GENERATED
 from . import registry
 
@@ -14,7 +15,9 @@ _SHIFT, _SHRINK = 1e-6, 0.999999
 @registry.add
 @dataclass(frozen=True, eq=False)
 class CheckerTexture:
-    """Unit cubes, `odd` where an odd number of the three whole coordinates is odd, else `even`: Blender's checker of scale 1.
+    """Cubes, `odd` where an odd number of the three whole coordinates is odd, else `even`: Blender's, `scale` to each unit.
+
+    output  "color", or "fac": 1 where odd
 
     Averaged over a box around the footprint of a ray, in closed form: it turns grey with distance, not into patterns.
     """
@@ -26,18 +29,25 @@ class CheckerTexture:
     odd: object = (0.8, 0.8, 0.8)
     even: object = (0.2, 0.2, 0.2)
     coordinates: object = GENERATED
+    scale: object = 1.0
+    output: str = "color"
 
     def check(self, owner):
-        pass
+        if self.output not in ("color", "fac"):
+            raise SceneError(f"material '{owner}': checker gives '{self.output}', allowed: color, fac")
 
     def eval(self, at):
         p, axes = at.look_up(self.coordinates)
-        p = (p + np.float32(_SHIFT)) * np.float32(_SHRINK)
+        scale = at.value(self.scale)
+        p = (p * scale + np.float32(_SHIFT)) * np.float32(_SHRINK)
         # The box that holds the ellipse of half-axes a, b is sqrt(a^2 + b^2) wide to both sides.
-        signs = 1 - 2 * (np.floor(p) % 2) if axes is None else mean_sign(p, np.sqrt(axes[0] ** 2 + axes[1] ** 2))
+        signs = 1 - 2 * (np.floor(p) % 2) if axes is None else mean_sign(p, np.abs(scale) * np.sqrt(axes[0] ** 2 + axes[1] ** 2))
         share = 0.5 - 0.5 * (signs[0] * signs[1] * signs[2])
+        if self.output == "fac":
+            return share[None]
         odd, even = at.value(self.odd), at.value(self.even)
-        return even + share * (odd - even)
+        # So that it is exactly one of both where there is nothing to average.
+        return share * odd + (1 - share) * even
 
 
 def mean_sign(x, half):

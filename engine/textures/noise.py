@@ -1,29 +1,30 @@
 """Fractal noise."""
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..errors import SceneError
-from ..maths.perlin import fractal, noise, offset
-from ..maths.vectors import length
+from ..maths.fractals import FRACTALS, fractal
+from ..maths.perlin import noise, offset
 from ..scene.coordinates import GENERATED
+from ..scene.placing import numbers, octaves, placed
 from . import registry
-
-MOST_DETAIL = 15.0
 
 
 @registry.add
 @dataclass(frozen=True, eq=False)
 class NoiseTexture:
-    """Blender's fractal noise in three dimensions: octaves of gradient noise, each finer and weaker than the one before.
+    """Blender's fractal noise in one to four dimensions: octaves of gradient noise, each finer and weaker than the one before.
 
+    scale, w       how fine all is; the fourth coordinate, or the only one
     detail         octaves beyond the first, 0 to 15; a fraction fades the last one in
     roughness      how strong each octave is, compared to the one before, >= 0
     lacunarity     how fine, likewise
+    offset, gain   what is added to octaves; how they count for those after them: of some kinds, see `maths.fractals`
     distortion     how far noise of its own moves the point where all this is looked up
-    is_normalized  values are spread over [0, 1] about 1/2; else about 0
+    kind           "fbm", "multifractal", "hybrid multifractal", "ridged multifractal", "hetero terrain"
+    is_normalized  values of "fbm" are spread over [0, 1] about 1/2; else about 0
     is_coloured    each channel has noise of its own
     Octaves finer than the footprint of a ray are left out: their mean is nothing.
     """
@@ -31,31 +32,43 @@ class NoiseTexture:
     key = "noise"
     label = "Noise"
     has_detail = True
+    is_pure = False
 
     coordinates: object = GENERATED
-    detail: float = 2.0
-    roughness: float = 0.5
-    lacunarity: float = 2.0
-    distortion: float = 0.0
+    detail: object = 2.0
+    roughness: object = 0.5
+    lacunarity: object = 2.0
+    distortion: object = 0.0
     is_normalized: bool = True
     is_coloured: bool = False
+    scale: object = 1.0
+    w: object = 0.0
+    offset: object = 0.0
+    gain: object = 1.0
+    kind: str = "fbm"
+    dimensions: int = 3
 
     def check(self, owner):
-        for name, most in (("detail", MOST_DETAIL), ("roughness", math.inf), ("lacunarity", math.inf), ("distortion", math.inf)):
-            value = getattr(self, name)
-            if not (math.isfinite(value) and value <= most and (value >= 0 or name == "distortion")):
-                raise SceneError(f"material '{owner}': noise {name} is {value}, allowed: 0 to {most:g}")
+        if self.kind not in FRACTALS:
+            raise SceneError(f"material '{owner}': noise is '{self.kind}', allowed: {', '.join(FRACTALS)}")
+        if self.dimensions not in (1, 2, 3, 4):
+            raise SceneError(f"material '{owner}': noise has {self.dimensions} dimensions, allowed: 1 to 4")
 
     def eval(self, at):
-        p, axes = at.look_up(self.coordinates)
-        # Both half-axes of the footprint: half of its longest extent.
-        half = None if axes is None else np.sqrt(length(axes[0]) ** 2 + length(axes[1]) ** 2)
-        if self.distortion:
-            p = p + np.float32(self.distortion) * np.stack([noise(p + offset(seed)) for seed in (0, 1, 2)])
-        value = self._fractal(p, half)
-        if not self.is_coloured:
-            return value[None]
-        return np.stack((value, self._fractal(p + offset(3), half), self._fractal(p + offset(4), half)))
+        p, half = placed(at, self.coordinates, self.scale, self.w, self.dimensions)
+        detail, roughness, lacunarity, distortion, added, gain = numbers(
+            at, self.detail, self.roughness, self.lacunarity, self.distortion, self.offset, self.gain
+        )
 
-    def _fractal(self, p, half):
-        return fractal(p, half, self.detail, self.roughness, self.lacunarity, self.is_normalized)
+        def moved(number):
+            return p + offset(number, self.dimensions)
+
+        def value(p):
+            roughness_ = np.maximum(roughness, 0)
+            return fractal(p, half, self.kind, octaves(detail), roughness_, lacunarity, added, gain, self.is_normalized)
+
+        if distortion.any():
+            p = p + distortion * np.stack([noise(moved(i)) for i in range(self.dimensions)])
+        if not self.is_coloured:
+            return value(p)[None]
+        return np.stack((value(p), value(moved(self.dimensions)), value(moved(self.dimensions + 1))))

@@ -14,6 +14,8 @@ SMALLEST = 1e-3
 SMALL_NUMBERS = {
     ("engine/scene/validate.py", 1e-6): "how far the sum of reflectances given as float32 may exceed 1",
     ("engine/textures/checker.py", 1e-6): "Blender's own shift of its checker, in units of its cubes",
+    ("engine/textures/wave.py", 1e-6): "Blender's own shift of its waves, in units of them",
+    ("engine/maths/voronoi.py", 1e-4): "the least distance, squared, of points that Blender draws an edge between, in units of its cells",
 }
 """The only numbers below SMALLEST that the engine may type, and why."""
 BY_PROTOCOL = {
