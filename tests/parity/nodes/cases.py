@@ -73,6 +73,13 @@ RANGES = {
     "Randomness": (0.0, 1.0),
     "Smoothness": (0.05, 1.0),
 }
+COARSE = {
+    "ShaderNodeTexBrick": {"Scale": (0.5, 1.5), "Brick Width": (0.2, 1.0), "Row Height": (0.2, 1.0)},
+    "ShaderNodeTexVoronoi": {"Scale": (0.5, 1.5), "Detail": (0.0, 2.0)},
+}
+"""Patterns that jump: both engines look up points a two-thousandth of a square apart, which few edges must come between."""
+BY_BITS = ("ShaderNodeTexWhiteNoise",)
+"""What changes with the last bit is looked up at the same two points by both: those of a checker."""
 PAIRS = {
     "ShaderNodeTexNoise": ("noise_dimensions", "noise_type"),
     "ShaderNodeTexVoronoi": ("voronoi_dimensions", "feature"),
@@ -179,12 +186,15 @@ def build(tree, case):
     for i, socket in enumerate(s for s in node.inputs if s.enabled and not s.is_unavailable):
         if socket.type == "VECTOR" and socket.identifier in ("Normal", "Tangent"):
             continue
-        may_vary = socket.type in ("VALUE", "RGBA") and socket.identifier not in RANGES
-        if socket.type == "VECTOR" or (may_vary and (i + case.seed) % 2 == 0):
-            low, high = (0.0, 1.0) if socket.type == "RGBA" else _range(socket)
+        is_even = (case.kind.startswith("ShaderNodeTex") and socket.identifier != "Lacunarity") or socket.identifier not in RANGES
+        may_vary = socket.type in ("VALUE", "RGBA") and is_even
+        low, high = (0.0, 1.0) if socket.type == "RGBA" else _range(socket, case.kind)
+        if case.kind in BY_BITS:
+            tree.links.new(_two(tree, rng, socket.type), socket)
+        elif socket.type == "VECTOR" or (may_vary and (i + case.seed) % 2 == 0):
             tree.links.new(_places(tree, rng, socket.type, low, high), socket)
         elif socket.type in ("VALUE", "INT"):
-            value = rng.uniform(*_range(socket))
+            value = rng.uniform(low, high)
             socket.default_value = round(value) if socket.type == "INT" else value
         elif socket.type == "RGBA":
             socket.default_value = (*rng.random(3), 1.0)
@@ -193,9 +203,10 @@ def build(tree, case):
     return next(s for s in node.outputs if s.identifier == case.output)
 
 
-def _range(socket):
-    if socket.identifier in RANGES:
-        return RANGES[socket.identifier]
+def _range(socket, kind):
+    ranges = {**RANGES, **COARSE.get(kind, {})}
+    if socket.identifier in ranges:
+        return ranges[socket.identifier]
     if socket.type == "VECTOR":
         return (-1.5, 1.5)
     p = socket.bl_rna.properties["default_value"]
@@ -216,6 +227,12 @@ def _places(tree, rng, kind, low, high):
         next(s for s in mapping.inputs if s.identifier == name).default_value = value
     tree.links.new(next(s for s in coordinates.outputs if s.identifier == "Object"), mapping.inputs["Vector"])
     return mapping.outputs[0]
+
+
+def _two(tree, rng, kind):
+    """Two vectors, or 0 and 1, in turn."""
+    colours = {name: (*rng.uniform(0, 9, 3), 1) for name in ("Color1", "Color2")}
+    return blender.add_node(tree, "ShaderNodeTexChecker", **colours).outputs["Fac" if kind == "VALUE" else "Color"]
 
 
 def _shape(node, rng):

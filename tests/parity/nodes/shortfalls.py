@@ -1,10 +1,6 @@
 """What must agree with Cycles, and what does not, and why."""
 
 NODES = {
-    "ShaderNodeTexNoise": (
-        "only fBM in three dimensions is read; the others are rendered as that, and said so",
-        lambda case: case.properties not in ({}, {"noise_dimensions": "3D", "noise_type": "FBM"}),
-    ),
     "ShaderNodeTexCoord": ("only Generated, UV and Object are read", lambda case: case.output not in ("Generated", "UV", "Object")),
     "ShaderNodeMapping": ("only constant locations, rotations and scales are read", None),
 }
