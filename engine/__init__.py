@@ -30,24 +30,35 @@ from .lights.sun import SunLight
 from .registry import FILTERS, INTEGRATORS, PASSES, SAMPLERS, TEXTURES
 from .rendering import Image, Progress, Tile, metadata, render, render_image
 from .requirements import Requirements
-from .scene import Bitmap, Coordinates, EnvironmentMap, Lens, Material, Medium, Mesh, Object, Scene, Settings, World
+from .scene import Bitmap, Coordinates, EnvironmentMap, Lens, Material, Medium, Mesh, MeshAttribute, Object, Scene, Settings, World
 from .scene.points import average_of
-from .scene.relief import BumpMap, NormalMap
 from .scene.textured import folded, is_texture, textures_of
+from .textures.attribute import Attribute
 from .textures.average import Average
 from .textures.brick import BrickTexture
+from .textures.bump_map import BumpMap
+from .textures.camera_data import CameraData
 from .textures.checker import CheckerTexture
 from .textures.environment import EnvironmentTexture
+from .textures.fresnel import Fresnel
 from .textures.gabor import GaborTexture
+from .textures.geometry import Geometry
 from .textures.gradient import GradientTexture
 from .textures.image import ImageTexture
+from .textures.layer_weight import LayerWeight
+from .textures.light_path import LightPath
 from .textures.linear import LinearTexture
 from .textures.luminance import Luminance
 from .textures.magic import MagicTexture
 from .textures.noise import NoiseTexture
+from .textures.normal_dot import NormalDot
+from .textures.normal_map import NormalMap
+from .textures.object_value import ObjectValue
+from .textures.tangent import Tangent
 from .textures.voronoi import VoronoiTexture
 from .textures.wave import WaveTexture
 from .textures.white_noise import WhiteNoiseTexture
+from .textures.wireframe import Wireframe
 
 __version__ = VERSION
 
@@ -58,11 +69,13 @@ __all__ = [
     "SAMPLERS",
     "TEXTURES",
     "AreaLight",
+    "Attribute",
     "Average",
     "Bitmap",
     "BlinnPhong",
     "BrickTexture",
     "BumpMap",
+    "CameraData",
     "CheckerTexture",
     "Coordinates",
     "CosineSpotLight",
@@ -70,24 +83,31 @@ __all__ = [
     "EnvironmentMap",
     "EnvironmentTexture",
     "FileError",
+    "Fresnel",
     "GaborTexture",
+    "Geometry",
     "GlanzError",
     "GradientTexture",
     "Image",
     "ImageTexture",
     "Lambert",
     "LambertTransmission",
+    "LayerWeight",
     "Lens",
+    "LightPath",
     "LinearTexture",
     "Luminance",
     "MagicTexture",
     "Material",
     "Medium",
     "Mesh",
+    "MeshAttribute",
     "Mirror",
     "NoiseTexture",
+    "NormalDot",
     "NormalMap",
     "Object",
+    "ObjectValue",
     "OrthographicCamera",
     "PanoramaCamera",
     "PerspectiveCamera",
@@ -102,11 +122,13 @@ __all__ = [
     "Settings",
     "SpotLight",
     "SunLight",
+    "Tangent",
     "Tile",
     "Transparent",
     "VoronoiTexture",
     "WaveTexture",
     "WhiteNoiseTexture",
+    "Wireframe",
     "World",
     "albedo_of",
     "average_of",

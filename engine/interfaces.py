@@ -56,9 +56,11 @@ class Bsdf(Lobe, Protocol):
     of a thin sheet: on both of its sides is the same medium.
 
     is_reciprocal  f is the same with wo and wi exchanged
+    is_diffuse     what it scatters is called diffuse, not glossy, where textures ask
     """
 
     is_reciprocal: bool
+    is_diffuse: bool
 
     @staticmethod
     def eval(k, n, wo, wi):
@@ -211,6 +213,12 @@ class Camera(Protocol):
     def check(self):
         """Raises SceneError, naming the camera, for parameters out of range; the lens and clip range are checked elsewhere."""
 
+    def in_window(self, p):
+        """Where x, y (N,) in the full frame points p (3, N) are, from 0 at its left and bottom to 1.
+
+        p is in the camera's frame, but that it looks along +z [m].
+        """
+
     @staticmethod
     def rays(k, x, y):
         """Origins and unit directions (3, N) of a pinhole camera's rays."""
@@ -289,6 +297,7 @@ class Integrator(Protocol):
 
     is_complete     it finds all light, so its pictures are those of path tracing but for the noise
     samples_lights  shadow rays look for lights; else only scattered rays find them
+    splits_specular specular lobes have rays of their own, the others are chosen among rough ones
     splits_white    dispersion sends a ray for each channel; else every path has a wavelength
     tints_glass     shadow rays pass specular surfaces that transmit, weakened by their transmittance; and what passes
                     straight on is a ray of its own, as all branches of specular lobes are
@@ -299,6 +308,7 @@ class Integrator(Protocol):
     label: str
     is_complete: bool
     samples_lights: bool
+    splits_specular: bool
     splits_white: bool
     tints_glass: bool
     on_surface: tuple

@@ -23,6 +23,7 @@ DISPERSION = "dispersion"
 TEXTURES = "textures"
 FOOTPRINTS = "footprints"
 RELIEF = "relief"
+LIGHT_PATHS = "light paths"
 
 MEANING = {
     GEOMETRY: "triangles to intersect",
@@ -45,6 +46,7 @@ MEANING = {
     TEXTURES: "parameters of materials that vary over a surface",
     FOOTPRINTS: "textures with detail, averaged over what a ray stands for",
     RELIEF: "shading normals bent by textures",
+    LIGHT_PATHS: "paths that know what has scattered them",
 }
 
 

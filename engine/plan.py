@@ -8,7 +8,7 @@ from .arrays import Columns, columns
 from .interfaces import is_straight
 from .registry import FILTERS, INTEGRATORS, PASSES, SAMPLERS
 from .scene.settings import Settings
-from .wavefront import dispersion, media
+from .wavefront import dispersion, light_path, media
 from .wavefront.adaptive import AdaptiveTile
 from .wavefront.camera_rays import bladed_aperture, round_aperture, through_the_lens, through_the_pinhole
 from .wavefront.clip import clip_row, start_in_range, to_the_end_of_range
@@ -158,7 +158,7 @@ class Plan:
         is_clipped = needs.CLIP_RANGE in requirements
         follows = needs.CAMERA_MOTION in requirements
         nearest, blocked = (closest_at_time, occluded_at_time) if world.movers else (closest, occluded)
-        has_cones = needs.FOOTPRINTS in requirements
+        has_cones, has_past = needs.FOOTPRINTS in requirements, needs.LIGHT_PATHS in requirements
         aim = through_the_lens if needs.LENS in requirements else through_the_pinhole
         interact = interact_at_time if world.movers else interact_at_rest
         camera = scene.camera
@@ -179,6 +179,7 @@ class Plan:
                 *((("wavelength", dispersion.white),) if has_wavelength else ()),
                 *(CARRIED if has_cones else ()),
                 *((("facing", no_side),) if minds_side else ()),
+                *(light_path.CARRIED if has_past else ()),
             ),
             aim=aim_cones(aim) if has_cones else aim,
             aperture=bladed_aperture if camera.lens.blades else round_aperture,
@@ -200,18 +201,23 @@ class Plan:
             seen_from_camera=seen_from_camera if follows else seen_at_rest,
             on_rays=on_rays,
             on_rays_beyond=tuple(_BEYOND.get(stage, stage) for stage in on_rays),
-            on_passing=(media.pass_boundary,) if has_media else (),
+            on_passing=(*((media.pass_boundary,) if has_media else ()), *((light_path.count_passed,) if has_past else ())),
             shine=textured_shine if world.materials.glowing else even_shine,
             footprints=footprints_of_cones if has_cones else no_footprints,
             edges=edges_at_time if world.movers else edges_at_rest,
             interact=landing_with_cones(interact) if has_cones else interact,
             adjust_surface=(bend_normals,) if needs.RELIEF in requirements and world.materials.relief else (),
-            adjust_reflection=(*((fill_in_textures,) if world.materials.textured else ()), *adjust_reflection),
+            adjust_reflection=(
+                *((fill_in_textures,) if world.materials.textured else ()),
+                *((light_path.remember_lobes,) if has_past else ()),
+                *adjust_reflection,
+            ),
             on_surface=integrator.on_surface if can_sample else (),
             on_leaving=(
                 *((media.change_media,) if has_media else ()),
                 *((leave_with_cones,) if has_cones else ()),
                 *((remember_side,) if minds_side else ()),
+                *((light_path.leave_by(integrator),) if has_past else ()),
             ),
             first_hits=tuple(p for p in chosen if p.at_first_hit),
             passes=chosen,

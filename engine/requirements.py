@@ -75,13 +75,15 @@ class Requirements:
                 if may_emit(material):
                     ask(needs.EMISSIVE_MESHES, o.name)
                 if material.relief:
-                    # Heights are compared as far apart as a ray is wide.
                     ask(needs.RELIEF, material.name)
-                    ask(needs.FOOTPRINTS, material.name)
                 for texture in material_textures(material):
                     ask(needs.TEXTURES, material.name)
-                    if settings.filter_textures and any(map(has_detail, with_inner(texture))):
+                    parts = with_inner(texture)
+                    # Heights are compared as far apart as a ray is wide.
+                    if any(getattr(part, "asks_for_width", settings.filter_textures and has_detail(part)) for part in parts):
                         ask(needs.FOOTPRINTS, material.name)
+                    if any(getattr(part, "asks_for_past", False) for part in parts):
+                        ask(needs.LIGHT_PATHS, material.name)
         shining = [light for light in scene.lights if any(light.power())]
         for light in shining:
             ask(needs.of_plugin("light", type(light)), light.name)

@@ -21,6 +21,7 @@ class Lambert:
     is_specular = False
     transmits = False
     is_reciprocal = True
+    is_diffuse = True
 
     reflectance: tuple = (0.8, 0.8, 0.8)
 

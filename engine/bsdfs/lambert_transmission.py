@@ -21,6 +21,7 @@ class LambertTransmission:
     is_specular = False
     transmits = True
     is_reciprocal = True
+    is_diffuse = True
 
     transmittance: tuple = (0.8, 0.8, 0.8)
 

@@ -26,6 +26,7 @@ class Phong:
     is_specular = False
     transmits = False
     is_reciprocal = True
+    is_diffuse = False
     limits = {"exponent": (0.0, LARGEST_EXPONENT)}
 
     reflectance: tuple = (0.8, 0.8, 0.8)

@@ -34,6 +34,7 @@ class PhongLecture:
     is_specular = False
     transmits = False
     is_reciprocal = False
+    is_diffuse = False
     limits = {"exponent": (0.0, LARGEST_EXPONENT)}
 
     reflectance: tuple = (0.8, 0.8, 0.8)

@@ -25,6 +25,7 @@ class PhongTransmission:
     is_specular = False
     transmits = True
     is_reciprocal = True
+    is_diffuse = False
     limits = {"exponent": (0.0, LARGEST_EXPONENT)}
 
     transmittance: tuple = (0.8, 0.8, 0.8)

@@ -62,6 +62,10 @@ class OrthographicCamera:
         u, v, _, origin = np.asarray(self.world_from_camera, np.float64)[:3].T
         return origin + 0.5 * (left + right) * u + 0.5 * (bottom + top) * v
 
+    def in_window(self, p):
+        left, right, bottom, top = self.window
+        return (p[0] - left) / (right - left), (p[1] - bottom) / (top - bottom)
+
     def row(self, width, height, scale=1.0):
         """The pixel grid of `width` x `height` in render space of `scale` [m^-1]: right and down per pixel, the axes."""
         left, right, bottom, top = self.window

@@ -53,6 +53,11 @@ class PanoramaCamera:
         """World space [m], (3,) float64: what the world is centred on."""
         return np.asarray(self.world_from_camera, np.float64)[:3, 3]
 
+    def in_window(self, p):
+        (left, right), (bottom, top) = self.longitude, self.latitude
+        longitude, latitude = np.arctan2(p[0], p[2]), np.arctan2(p[1], np.hypot(p[0], p[2]))
+        return (longitude - left) / (right - left), (latitude - bottom) / (top - bottom)
+
     def row(self, width, height, scale=1.0):
         """The map for a frame of `width` x `height`: its middle, angles per pixel, and the axes in world orientation."""
         (left, right), (bottom, top) = self.longitude, self.latitude

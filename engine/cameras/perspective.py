@@ -61,6 +61,10 @@ class PerspectiveCamera:
         """World space [m], (3,) float64: what the world is centred on."""
         return np.asarray(self.world_from_camera, np.float64)[:3, 3]
 
+    def in_window(self, p):
+        left, right, bottom, top = self.window
+        return (p[0] / p[2] - left) / (right - left), (p[1] / p[2] - bottom) / (top - bottom)
+
     def row(self, width, height, scale=1.0):
         """The axes of a pixel grid of `width` x `height`, in world orientation: middle, right and down per pixel."""
         left, right, bottom, top = self.window

@@ -19,6 +19,7 @@ class Distributed:
     is_complete = True
     samples_lights = True
     splits_white = False
+    splits_specular = True
     tints_glass = False
     on_surface = (add_distributed_light,)
 

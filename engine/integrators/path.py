@@ -15,6 +15,7 @@ class Path:
     is_complete = True
     samples_lights = True
     splits_white = False
+    splits_specular = False
     tints_glass = False
     on_surface = (add_direct_light,)
 

@@ -16,6 +16,7 @@ class BlindPath:
     is_complete = True
     samples_lights = False
     splits_white = False
+    splits_specular = False
     tints_glass = False
     on_surface = ()
 

@@ -19,6 +19,7 @@ class NaivePath:
     is_complete = True
     samples_lights = False
     splits_white = False
+    splits_specular = False
     tints_glass = False
     on_surface = ()
 

@@ -20,6 +20,7 @@ class Whitted:
     is_complete = False
     samples_lights = True
     splits_white = True
+    splits_specular = True
     tints_glass = True
     on_surface = (add_hard_light,)
 

@@ -22,6 +22,7 @@ class WhittedPhong:
     is_complete = False
     samples_lights = True
     splits_white = True
+    splits_specular = True
     tints_glass = True
     on_surface = (add_illumination,)
 

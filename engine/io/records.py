@@ -7,16 +7,18 @@ import numpy as np
 
 from ..errors import FileError, GlanzError
 from ..registry import BSDFS, CAMERAS, LIGHTS, TEXTURES
-from ..scene import Bitmap, Coordinates, EnvironmentMap, Lens, Material, Medium, Mesh, Object, Scene, Settings, World
-from ..scene.relief import RELIEFS
+from ..scene import Bitmap, Coordinates, EnvironmentMap, Lens, Material, Medium, Mesh, MeshAttribute, Object, Scene, Settings, World
+from ..textures.bump_map import BumpMap
 from ..textures.linear import LinearTexture
+from ..textures.normal_map import NormalMap
 
 SHARED = (Mesh, Material, Bitmap, *TEXTURES.values())
 """Values that many others may hold; they are stored once and are the same value again after reading."""
 PARTS = {
     Scene: {"camera": CAMERAS, "objects": [Object], "lights": [LIGHTS], "world": World},
+    Mesh: {"attributes": [MeshAttribute]},
     Object: {"mesh": Mesh, "materials": [Material]},
-    Material: {"lobes": [BSDFS], "relief": [RELIEFS], "medium": Medium},
+    Material: {"lobes": [BSDFS], "relief": [TEXTURES], "medium": Medium},
     World: {"environment": EnvironmentMap},
     LinearTexture: {"textures": [TEXTURES]},
 }
@@ -25,8 +27,9 @@ PARTS = {
 
 def types():
     """{name in the file: type} of all that may stand in a file; plug-ins are named `light/point` by their keys."""
-    values = (Scene, World, EnvironmentMap, Object, Mesh, Material, Medium, Lens, Settings, Bitmap, Coordinates)
-    plain = {cls.__name__: cls for cls in values} | RELIEFS
+    values = (Scene, World, EnvironmentMap, Object, Mesh, MeshAttribute, Material, Medium, Lens, Settings, Bitmap, Coordinates)
+    # The two reliefs that there were before textures could be anything.
+    plain = {cls.__name__: cls for cls in (*values, NormalMap, BumpMap)}
     plugins = {"bsdf": BSDFS, "light": LIGHTS, "camera": CAMERAS, "texture": TEXTURES}
     return plain | {f"{kind}/{key}": cls for kind, registry in plugins.items() for key, cls in registry.items()}
 
@@ -136,8 +139,9 @@ def _check_field(cls, field, value):
     part = PARTS.get(cls, {}).get(field.name)
     if part is not None:
         fits = isinstance(value, tuple) and all(map(_fits_type(part[0]), value)) if isinstance(part, list) else _fits_type(part)(value)
-    elif field.type is object and cls in (*TEXTURES.values(), *RELIEFS.values()):
+    elif field.type is object and cls in TEXTURES.values():
         fits = type(value) in (*TEXTURES.values(), Coordinates) or _is_number(value) or _is_alike((0.0, 0.0, 0.0), value)
+        fits = fits or value is field.default is None
     elif cls is LinearTexture and field.name == "factors":
         fits = isinstance(value, tuple) and all(type(f) in TEXTURES.values() or _is_number(f) or _is_alike((0.0,) * 3, f) for f in value)
     elif type(value) in TEXTURES.values():

@@ -6,6 +6,19 @@ from .environment import EnvironmentMap
 from .lens import Lens
 from .medium import Medium
 from .settings import Settings
-from .values import Material, Mesh, Object, Scene, World
+from .values import Material, Mesh, MeshAttribute, Object, Scene, World
 
-__all__ = ["Bitmap", "Coordinates", "EnvironmentMap", "Lens", "Material", "Medium", "Mesh", "Object", "Scene", "Settings", "World"]
+__all__ = [
+    "Bitmap",
+    "Coordinates",
+    "EnvironmentMap",
+    "Lens",
+    "Material",
+    "Medium",
+    "Mesh",
+    "MeshAttribute",
+    "Object",
+    "Scene",
+    "Settings",
+    "World",
+]

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..errors import SceneError
 
-SOURCES = ("uv", "generated", "object")
+SOURCES = ("uv", "generated", "object", "position", "camera")
 _IDENTITY = ((1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0), (0.0, 0.0, 0.0, 1.0))
 
 
@@ -14,7 +14,8 @@ _IDENTITY = ((1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0), (
 class Coordinates:
     """Points (x, y, z) that vary linearly over each triangle.
 
-    source  "uv": a layer of the mesh, with z = 0; "generated": the mesh's bounding box is the unit cube; "object": object space [m]
+    source  "uv": a layer of the mesh, with z = 0; "generated": the mesh's bounding box is the unit cube; "object": object space [m];
+            "position": world space [m]; "camera": the frame of the camera, which looks along +z, x to the right, y up [m]
     layer   the uv layer; empty: the mesh's first. A mesh without it is at 0 everywhere
     matrix  texture_from_source (4, 4), affine
     """

@@ -1,6 +1,7 @@
 """Points at which textures are evaluated, and what is known of a texture where there are none."""
 
 import weakref
+from types import SimpleNamespace
 
 import numpy as np
 
@@ -15,7 +16,7 @@ class Points:
     """N points; what a texture is handed as `at`. Each coordinate system and each texture is worked out once.
 
     Who inherits offers `attribute`(key), see `world.attributes.Attribute.at`; `across`, None or the half-axes of footprints
-    in units of what attributes change along; and `beside`(axis), the points moved by half-axis 0 or 1.
+    in units of what attributes change along; `beside`(axis), the points moved by half-axis 0 or 1; and what `OnPlane` shows.
     """
 
     def __init__(self):
@@ -57,28 +58,93 @@ class Points:
         return _affine(coordinates.matrix, p, 1), axes
 
 
-class Probes(Points):
-    """Points all over the unit cube, where all attributes are the same; their footprints along x and y cover it."""
+_COMPONENTS = {"number": 1, "alpha": 1, "colour alpha": 1, "value": 4, "tangent": 4}
+"""How many numbers attributes have, but for those with three."""
 
-    count = _PROBES
 
-    def __init__(self, moved=(0.0, 0.0)):
+class OnPlane(Points):
+    """Points p (3, N) for which there is no scene: all attributes are p, and a plane is seen there by rays from all around its front."""
+
+    edges = tuple(np.eye(3, dtype=np.float32)[:2, :, None])
+    frame = SimpleNamespace(scale=1.0)
+    pixel_width = np.float32(_PROBES**-0.5)
+
+    def __init__(self, p, across=None):
         super().__init__()
-        step = np.array(_STEPS)[:, None]
-        self._p = np.mod(0.5 + step * np.arange(_PROBES), 1).astype(np.float32)
-        self._p[:2] += np.array(moved, np.float32)[:, None]
-        half = np.full((1, _PROBES), 0.5 * _PROBES**-0.5, np.float32)
-        none = np.zeros_like(half)
-        self.across = np.concatenate((half, none)), np.concatenate((none, half))
+        self.p, self.across = p, across
+
+    @property
+    def count(self):
+        """N."""
+        return self.p.shape[1]
 
     def attribute(self, key):
-        """See `world.attributes.Attribute.at`: the points themselves."""
+        """See `world.attributes.Attribute.at`; objects stand at the origin."""
+        if key[0] in ("world_from_object", "object_from_world"):
+            return np.eye(4, dtype=np.float32)[:3].reshape(12, 1), 0, 0
+        rows = [0, 1, 2, 0][: _COMPONENTS.get(key[0], 3)]
         x, y = np.eye(3, dtype=np.float32)[:2, :, None]
-        return self._p, x, y
+        return self.p[rows], x[rows], y[rows]
+
+    @property
+    def d(self):
+        """Directions of rays, as they come from all around in front of a diffuse surface."""
+        x, _, cos2 = self.p - np.floor(self.p)
+        sin, angle = np.sqrt(1 - cos2), np.float32(2 * np.pi) * x
+        return np.stack((sin * np.cos(angle), sin * np.sin(angle), -np.sqrt(cos2)))
+
+    @property
+    def surface(self):
+        """The plane, whose normal is z."""
+        up = np.float32([[0], [0], [1]])
+        return SimpleNamespace(p=self.p, n=up, ns=up, is_front=np.ones(1, bool))
+
+    @property
+    def u(self):
+        """Where in its triangle each is."""
+        return self.p[0]
+
+    @property
+    def v(self):
+        """The same, along the other edge."""
+        return self.p[1]
+
+    @property
+    def in_window(self):
+        """Where the camera sees the points."""
+        return self.p
+
+    def moved_by(self, a):
+        """The points moved by a (3, 1)."""
+        return type(self)(self.p + a, self.across)
+
+    def at_time(self, a):
+        """Vectors of objects, which do not move."""
+        return a
+
+    def path(self, output):
+        """The rays are of no kind, one bounce from the camera, which is one metre away."""
+        return np.full((1, 1), output in ("depth", "length"), np.float32)
+
+
+class Probes(OnPlane):
+    """Points all over the unit cube; their footprints along x and y cover it."""
+
+    def __init__(self, moved=(0.0, 0.0)):
+        step = np.array(_STEPS)[:, None]
+        p = np.mod(0.5 + step * np.arange(_PROBES), 1).astype(np.float32)
+        p[:2] += np.array(moved, np.float32)[:, None]
+        half = np.full((1, _PROBES), 0.5 * _PROBES**-0.5, np.float32)
+        none = np.zeros_like(half)
+        super().__init__(p, (np.concatenate((half, none)), np.concatenate((none, half))))
 
     def beside(self, axis):
         """The probes moved by half-axis 0 or 1."""
         return Probes(self.across[axis][:, 0])
+
+    def moved_by(self, a):
+        """See `OnPlane.moved_by`."""
+        return Probes(a[:2, 0])
 
 
 _averages = weakref.WeakKeyDictionary()

@@ -12,7 +12,6 @@ from ..interfaces import albedo_of, is_pure
 from ..registry import TEXTURES
 from .coordinates import Coordinates
 from .points import average_of, constant_of
-from .relief import NormalMap
 
 
 def is_texture(value):
@@ -98,10 +97,11 @@ def coordinates_of(texture):
 
 def material_textures(material):
     """All textures of a material's lobes, emission, alpha and relief, without inner ones."""
-    return [t for value in (*material.lobes, material, *material.relief) for t in textures_of(value).values()]
+    return [*(t for value in (*material.lobes, material) for t in textures_of(value).values()), *material.relief]
 
 
 def attributes_of(material):
-    """What a material's textures and normal maps ask of meshes, see `Coordinates.attribute`."""
-    found = [c.attribute for texture in material_textures(material) for c in coordinates_of(texture)]
-    return frozenset([*found, *(("uv", relief.layer) for relief in material.relief if isinstance(relief, NormalMap))])
+    """What a material's textures ask of meshes and objects, keys as in `world.attributes`."""
+    textures = material_textures(material)
+    found = [c.attribute for texture in textures for c in coordinates_of(texture)]
+    return frozenset([*found, *(key for texture in textures for part in with_inner(texture) for key in getattr(part, "attributes", ()))])

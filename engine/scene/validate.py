@@ -12,7 +12,6 @@ from ..registry import BSDFS, CAMERAS, FILTERS, INTEGRATORS, LIGHTS, PASSES, SAM
 from .coordinates import Coordinates
 from .environment import EnvironmentMap
 from .medium import Medium
-from .relief import RELIEFS
 from .textured import coordinates_of, inputs_of, is_texture, material_textures, plain, textures_of, with_inner
 
 
@@ -77,10 +76,8 @@ def _check_material(material):
     if not is_texture(material.alpha) and not 0 <= material.alpha <= 1:
         raise SceneError(f"material '{material.name}': alpha is {material.alpha}, allowed: 0 to 1")
     for relief in material.relief:
-        if type(relief) not in RELIEFS.values():
-            raise SceneError(f"material '{material.name}': {type(relief).__name__} is not a relief")
-        relief.check(material.name)
-        _check_inputs(material, relief, type(relief).__name__)
+        if not is_texture(relief):
+            raise SceneError(f"material '{material.name}': its relief {relief!r} is not a texture")
     if is_texture(material.ambient):
         raise SceneError(f"material '{material.name}': ambient is a texture, allowed: three finite numbers from 0 on")
     for texture in material_textures(material):

@@ -32,6 +32,26 @@ def _check_indices(mesh, name, count):
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
+class MeshAttribute:
+    """What a mesh has besides its shape, for textures to look up: it varies linearly over each triangle.
+
+    values   (C, K): one number; two, of a plane; three, of a vector; four, a colour and its alpha
+    indices  (3, F) which of them each corner of each triangle takes; none (3, 0): one for each vertex
+    Raises SceneError for a shape that does not fit.
+    """
+
+    name: str
+    values: np.ndarray
+    indices: np.ndarray = field(default_factory=lambda: np.zeros((3, 0)))
+
+    def __post_init__(self):
+        _array(self, "values", np.float32, (None, None))
+        _array(self, "indices", np.int32, (3, None))
+        if not 1 <= len(self.values) <= 4:
+            raise SceneError(f"mesh attribute '{self.name}': values have {len(self.values)} components, allowed: 1 to 4")
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Mesh:
     """Triangles in object space; many objects may share one mesh.
 
@@ -44,6 +64,7 @@ class Mesh:
     uvs               (L, 2, K) of each layer
     uv_indices        (3, F) which of them each corner of each triangle takes, in all layers; none (3, 0) without layers
     generated         (3, V) texture coordinates of the vertices; none (3, 0): the bounding box as the unit cube
+    attributes        `MeshAttribute` values
     shapes            (K, 3, V) the vertices at equally spaced times, the first and the last included, while the shutter is open;
                       none (0, 3, 0): the mesh keeps its shape. `vertices` are then set to the middle
     shape_normals     (K, 3, K_n) the normals at the same times; none (0, 3, 0): they stay
@@ -60,6 +81,7 @@ class Mesh:
     uvs: np.ndarray = field(default_factory=lambda: np.zeros((0, 2, 0)))
     uv_indices: np.ndarray = field(default_factory=lambda: np.zeros((3, 0)))
     generated: np.ndarray = field(default_factory=lambda: np.zeros((3, 0)))
+    attributes: tuple = ()
     shapes: np.ndarray = field(default_factory=lambda: np.zeros((0, 3, 0)))
     shape_normals: np.ndarray = field(default_factory=lambda: np.zeros((0, 3, 0)))
 
@@ -75,6 +97,7 @@ class Mesh:
         _array(self, "uvs", np.float32, (len(self.uv_layers), 2, None))
         _array(self, "uv_indices", np.int32, (3, None))
         _array(self, "generated", np.float32, (3, None))
+        object.__setattr__(self, "attributes", tuple(self.attributes))
         _check_indices(self, "triangles", self.vertices.shape[1])
         _check_indices(self, "normal_indices", self.normals.shape[1])
         _check_indices(self, "uv_indices", self.uvs.shape[2])
@@ -85,6 +108,21 @@ class Mesh:
         for name in ("normal_indices", "material_indices", "uv_indices"):
             if getattr(self, name).shape[-1] not in (0, self.triangles.shape[1]):
                 raise SceneError(f"mesh '{self.name}': {name} must have one entry for each of {self.triangles.shape[1]} triangles, or none")
+        for attribute in self.attributes:
+            self._check_attribute(attribute)
+
+    def _check_attribute(self, attribute):
+        count, indices = attribute.values.shape[1], attribute.indices
+        if indices.shape[1] not in (0, self.triangles.shape[1]) or (not indices.size and count != self.vertices.shape[1]):
+            raise SceneError(
+                f"mesh '{self.name}': attribute '{attribute.name}' must have indices for each of {self.triangles.shape[1]} triangles, "
+                f"or one value for each of {self.vertices.shape[1]} vertices"
+            )
+        if indices.size and not 0 <= indices.min() <= indices.max() < count:
+            raise SceneError(
+                f"mesh '{self.name}': indices of attribute '{attribute.name}' reach from {indices.min()} to {indices.max()}, "
+                f"allowed: 0 to {count - 1}"
+            )
 
     def _settle_shapes(self):
         """Keys that are all the same are no deformation; else vertices and normals become those of the middle."""
@@ -147,7 +185,7 @@ class Material:
               lobes make, not what is emitted. A texture beyond [0, 1] is cut off
     Emission, alpha and any parameter of a lobe may be a texture.
     ambient   k_a of the lecture's illumination model, the share of each light that arrives everywhere; no other model knows it
-    relief    `NormalMap` and `BumpMap` values, which bend shading normals one after the other
+    relief    textures that give normals in world space, such as `NormalMap` and `BumpMap`; each bends what the one before has left
     medium    the `Medium` behind surfaces that let light pass; None: nothing is known of it, and nothing is absorbed
     """
 
@@ -180,6 +218,9 @@ class Object:
     materials          one for each material index of the mesh; indices beyond the last take the last, none is black
     motion             (K, 4, 4) world_from_object at equally spaced times, the first and the last included, while the shutter is
                        open; none (0, 4, 4): it stands still. `world_from_object` is then set to the middle
+    values             what textures can ask about it: pairs (name, four numbers), such as ("colour", (r, g, b, alpha)) and
+                       ("random", (x, x, x, 1)); what is not among them is 0
+    Raises SceneError for values of another form.
     """
 
     name: str
@@ -187,11 +228,19 @@ class Object:
     world_from_object: np.ndarray = field(default_factory=lambda: np.eye(4))
     materials: tuple = ()
     motion: np.ndarray = field(default_factory=no_motion)
+    values: tuple = ()
 
     def __post_init__(self):
         settle(self, "object", "world_from_object")
         _array(self, "world_from_object", np.float64, (4, 4))
         object.__setattr__(self, "materials", tuple(self.materials))
+        try:
+            object.__setattr__(self, "values", tuple((str(name), tuple(map(float, four))) for name, four in self.values))
+        except (TypeError, ValueError):
+            raise SceneError(f"object '{self.name}': values are not pairs of a name and four numbers") from None
+        for name, four in self.values:
+            if len(four) != 4:
+                raise SceneError(f"object '{self.name}': value '{name}' is {four}, allowed: four numbers")
 
     @property
     def moves(self):

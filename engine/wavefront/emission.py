@@ -6,6 +6,7 @@ from ..maths import patches
 from ..maths.vectors import dot
 from ..world.texturing import TexturePoints
 from .mis import power_heuristic
+from .views import RayView
 
 
 def add_emission(plan, rays, hits, film):
@@ -35,4 +36,5 @@ def textured_shine(plan, rays, hits, lanes, L):
     """The same where emission may be textured."""
     prim, d = hits.prim.take(lanes), rays.d.take(lanes, axis=1)
     across = plan.footprints(plan, rays.carried.take(lanes), prim, -d, hits.t.take(lanes))
-    return plan.world.glow.seen(L, TexturePoints(plan.world.attributes, prim, hits.u.take(lanes), hits.v.take(lanes), across))
+    view = RayView(plan, rays, hits.t.take(lanes), lanes)
+    return plan.world.glow.seen(L, TexturePoints(plan.world.attributes, prim, hits.u.take(lanes), hits.v.take(lanes), view, across))

@@ -19,6 +19,7 @@ from ..scene.textured import luminance
 from ..world.interaction import leave_on_either_side
 from ..world.texturing import TexturePoints, clean
 from .numbers import Dimension
+from .views import RayView
 from .visibility import blocked, travel
 
 _NEXT_TURN = 2**20
@@ -55,7 +56,7 @@ def _decide(plan, rays, hits, turn):
     material = plan.world.triangles.material.take(hits.prim.take(met))
     clear = np.nonzero(table.is_clear.take(material))[0]
     lanes, material = met.take(clear), material.take(clear)
-    alpha, clear = _looked_up(plan, hits, lanes, material, table.transmittance, table.veils, _footprints_of(plan, rays, hits))
+    alpha, clear = _looked_up(plan, rays, hits, lanes, material, table.transmittance, table.veils)
     beta = rays.beta.take(lanes, axis=1)
     kept = beta * alpha
     passed = beta * (1 - alpha) + kept * clear
@@ -70,22 +71,11 @@ def _decide(plan, rays, hits, turn):
     return lanes[passes]
 
 
-def _footprints_of(plan, rays, hits):
-    """What the rays `lanes` (M,) of a batch stand for on the triangles `prim` (M,) that they met, as a function of these."""
-    return lambda lanes, prim: plan.footprints(
-        plan, rays.carried.take(lanes), prim, -rays.d.take(lanes, axis=1), hits.t.take(lanes)
-    )
-
-
-def _point_by_point(lanes, prim):
-    """Shadow rays stand for nothing but themselves: on average it is the same."""
-    return
-
-
-def _looked_up(plan, hits, lanes, material, passed, textures, footprints):
+def _looked_up(plan, rays, hits, lanes, material, passed, textures, is_shadow=False):
     """The share (M,) of the surfaces of `material` (M,) that is there, where the rays `lanes` (M,) met them, and what of it passes.
 
-    The latter, (3, M), are the columns of `passed`, plus `textures` {row: textures} where there are any.
+    The latter, (3, M), are the columns of `passed`, plus `textures` {row: textures} where there are any. Shadow rays stand for
+    nothing but themselves: on average it is the same.
     """
     table = plan.world.passing
     alpha, clear = table.alpha.take(material), passed.take(material, axis=1)
@@ -95,7 +85,9 @@ def _looked_up(plan, hits, lanes, material, passed, textures, footprints):
             continue
         at = lanes.take(own)
         prim, u, v = (column.take(at) for column in (hits.prim, hits.u, hits.v))
-        points = TexturePoints(plan.world.attributes, prim, u, v, footprints(at, prim))
+        t, d = hits.t.take(at), rays.d.take(at, axis=1)
+        across = None if is_shadow else plan.footprints(plan, rays.carried.take(at), prim, -d, t)
+        points = TexturePoints(plan.world.attributes, prim, u, v, RayView(plan, rays, t, at, is_shadow), across)
         if row in table.cutouts:
             alpha[own] = np.minimum(luminance(clean(points.value(table.cutouts[row]))), 1)
         for texture in textures.get(row, ()):
@@ -147,7 +139,7 @@ def _transmittance(plan, rays, o, d, limit):
         share[:, lanes] *= plan.left(plan, rays, hits.t)
         met = np.nonzero(hits.prim >= 0)[0]
         material = materials.take(hits.prim.take(met))
-        alpha, shadow = _looked_up(plan, hits, met, material, table.shadow, table.shades, _point_by_point)
+        alpha, shadow = _looked_up(plan, rays, hits, met, material, table.shadow, table.shades, is_shadow=True)
         tint = 1 - alpha + alpha * shadow
         share[:, lanes.take(met)] *= tint
         on = met[tint.any(axis=0)]

@@ -6,6 +6,7 @@ from ..arrays import Columns
 from ..scene.textured import luminance
 from ..world.materials import Lobe
 from ..world.texturing import TexturePoints, clean
+from .views import RayView
 
 _SCALES = ("reflectance", "transmittance")
 """The parameters to which the albedo of a lobe is in proportion."""
@@ -14,7 +15,7 @@ _SCALES = ("reflectance", "transmittance")
 def points_of(plan, rays, surface):
     """The `TexturePoints` of a surface that `rays` met."""
     across = plan.footprints(plan, rays.carried, surface.prim, surface.wo)
-    return TexturePoints(plan.world.attributes, surface.prim, surface.u, surface.v, across)
+    return TexturePoints(plan.world.attributes, surface.prim, surface.u, surface.v, RayView(plan, rays, surface.t), across)
 
 
 def fill_in_textures(plan, rays, surface, reflection):

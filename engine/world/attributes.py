@@ -1,40 +1,80 @@
-"""What meshes bring for textures to be looked up at: points that vary linearly over each triangle."""
+"""What meshes and objects bring for textures to look up: values that vary linearly over each triangle, and values of objects."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
+from ..maths.tangents import corner_tangents, flat_normals
+
+OF_OBJECTS = ("value", "world_from_object", "object_from_world")
+"""The sources of attributes that are the same all over an object."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Attribute:
-    """One attribute of the triangles of a world that ask for it; elsewhere it is 0.
+    """One attribute, of C components, of the triangles of a world that ask for it; elsewhere it is 0.
 
     row      (F,) intp: a column of `corners` for each triangle
-    corners  (9, S) float32: the value at the first corner, and the differences to those at the second and third
+    corners  (3 C, S) float32: the value at the first corner, and the differences to those at the second and third
     """
 
     row: np.ndarray
     corners: np.ndarray
 
     def at(self, prim, u, v):
-        """The value (3, N) at places u, v of triangles, and its changes along u and v, (3, N) each."""
-        corner, along_u, along_v = self.corners.take(self.row.take(prim), axis=1).reshape(3, 3, -1)
+        """The value (C, N) at places u, v of triangles, and its changes along u and v, (C, N) each."""
+        corner, along_u, along_v = self.corners.take(self.row.take(prim), axis=1).reshape(3, len(self.corners) // 3, -1)
         corner += u * along_u
         corner += v * along_v
         return corner, along_u, along_v
 
 
-def compile_attributes(parts, keep, material, wanted):
-    """({key: Attribute}, warnings) for the triangles `keep` (F,) of all `parts`, whose materials are `material` (F,).
+@dataclass(frozen=True, slots=True, eq=False)
+class OfObject:
+    """One value, of C components, of each object.
 
-    `wanted` is {key: rows of the materials that ask for it}; keys as in `Coordinates.attribute`.
+    owner  (F,) intp: the object of each triangle
+    table  (C, O) float32
+    """
+
+    owner: np.ndarray
+    table: np.ndarray
+
+    def at(self, prim, u, v):
+        """See `Attribute.at`; it does not change along u and v."""
+        none = np.zeros((len(self.table), 1), np.float32)
+        return self.table.take(self.owner.take(prim), axis=1), none, none
+
+
+def compile_attributes(parts, keep, material, wanted, objects, owner):
+    """({key: `Attribute` or `OfObject`}, warnings) for the triangles `keep` (F,) of all `parts`.
+
+    Their materials are `material` (F,), and they belong to the `objects` of the scene `owner` (F,). `wanted` is {key: rows of
+    the materials that ask for it}. A key is (source, name):
+
+    uv, generated, object  (3,) as in `Coordinates`
+    attribute              (3,) a `MeshAttribute` as a colour or vector: one number counts three times
+    number, alpha          (1,) the same as a number, the mean of what has three components; its alpha, 1 where it has none
+    colour alpha           (1,) its alpha, 0 where a mesh has no such attribute
+    parametric             (3,) the shares of the first and the second corner, and 0
+    normal                 (3,) of the corners in object space, as they vary between them: not unit
+    tangent                (4,) the tangent of a uv layer in object space, and the side of the bitangent, see `maths.tangents`
+    value                  (4,) of `Object.values`, or the location of the object
+    world_from_object, object_from_world  (12,) the rows of the matrix
     """
     found, warnings = {}, []
     ends = np.cumsum([part.owner.size for part in parts])
     part_of = np.searchsorted(ends, keep, side="right")
     for key, rows in wanted.items():
+        if key[0] in ("position", "camera"):
+            # Points know where they are.
+            continue
+        if key[0] in OF_OBJECTS:
+            found[key] = OfObject(owner, _of_objects(objects, *key))
+            continue
         asks = np.isin(material, list(rows))
-        row, pieces, count = np.zeros(keep.size, np.intp), [np.zeros((9, 1), np.float32)], 1
+        empty = np.zeros((3 * _COMPONENTS.get(key[0], 3), 1), np.float32)
+        row, pieces, count = np.zeros(keep.size, np.intp), [empty], 1
         for i, part in enumerate(parts):
             here = np.nonzero(asks & (part_of == i))[0]
             if not here.size or (corners := _corners(part, keep[here] - (ends[i] - part.owner.size), *key)) is None:
@@ -51,17 +91,27 @@ def compile_attributes(parts, keep, material, wanted):
     return found, tuple(warnings)
 
 
-def _corners(part, triangles, source, layer):
-    """(9, N) of `triangles` (N,) of a part, or None where its mesh lacks the attribute."""
-    mesh = part.mesh
-    instance, face = np.divmod(triangles, mesh.triangles.shape[1])
-    if source == "uv":
-        if layer not in ("", *mesh.uv_layers) or not mesh.uv_layers:
-            return None
-        u, v = mesh.uvs[mesh.uv_layers.index(layer) if layer else 0]
-        values, indices = np.stack((u, v, np.zeros_like(u))), mesh.uv_indices
+_COMPONENTS = {"number": 1, "alpha": 1, "colour alpha": 1, "tangent": 4}
+
+
+def _of_objects(objects, source, name):
+    if source == "value":
+        rows = [dict(o.values).get(name, (*o.world_from_object[:3, 3], 1) if name == "location" else (0, 0, 0, 0)) for o in objects]
     else:
-        values, indices = generated(mesh) if source == "generated" else mesh.vertices, mesh.triangles
+        matrices = (o.world_from_object for o in objects)
+        # What is flattened has no inverse, but one that leads back into its plane.
+        rows = [(m if source == "world_from_object" else np.linalg.pinv(m))[:3].ravel() for m in matrices]
+    return np.array(rows, np.float32).T.reshape(4 if source == "value" else 12, -1)
+
+
+def _corners(part, triangles, source, name):
+    """(3 C, N) of `triangles` (N,) of a part, or None where its mesh lacks the attribute."""
+    mesh = part.mesh
+    found = _values(mesh, source, name)
+    if found is None:
+        return None
+    values, indices = found
+    instance, face = np.divmod(triangles, mesh.triangles.shape[1])
     indices = indices.take(face, axis=1).astype(np.intp)
     # As placed: mirrored instances have their winding turned.
     turned = part.mirrored.take(instance)
@@ -69,6 +119,42 @@ def _corners(part, triangles, source, layer):
     with np.errstate(over="ignore", invalid="ignore"):
         corners = values.astype(np.float32).take(indices, axis=1).transpose(1, 0, 2)
         return np.concatenate((corners[0], corners[1] - corners[0], corners[2] - corners[0]))
+
+
+def _values(mesh, source, name):
+    """Values (C, K) of a mesh, and which of them (3, F) its corners take; None where it has none."""
+    if source == "generated":
+        return generated(mesh), mesh.triangles
+    if source == "object":
+        return mesh.vertices, mesh.triangles
+    if source == "parametric":
+        return np.diag((1, 1, 0)), np.repeat(np.arange(3)[:, None], mesh.triangles.shape[1], axis=1)
+    if source == "normal":
+        return (mesh.normals, mesh.normal_indices) if mesh.is_smooth else flat_normals(mesh)
+    if source in ("uv", "tangent"):
+        if name not in ("", *mesh.uv_layers) or not mesh.uv_layers:
+            return None
+        u, v = mesh.uvs[mesh.uv_layers.index(name) if name else 0]
+        if source == "uv":
+            return np.stack((u, v, np.zeros_like(u))), mesh.uv_indices
+        return corner_tangents(mesh, np.stack((u, v)))
+    attribute = next((a for a in mesh.attributes if a.name == name), None)
+    if attribute is None:
+        # One that is missing is a number: 0, wholly there.
+        return (np.ones((1, 1)), np.zeros_like(mesh.triangles)) if source == "alpha" else None
+    indices = attribute.indices if attribute.indices.size else mesh.triangles
+    return _as_kind(attribute.values, source), indices
+
+
+def _as_kind(values, source):
+    """Values (C, K) of an attribute as the components (3, K) or (1, K) that are asked for."""
+    if source.endswith("alpha"):
+        return values[3:] if len(values) == 4 else np.ones_like(values[:1])
+    if source == "number":
+        return values[:1] if len(values) < 3 else values[:3].mean(axis=0, keepdims=True)
+    if len(values) == 1:
+        return np.repeat(values, 3, axis=0)
+    return values[:3] if len(values) > 2 else np.concatenate((values, np.zeros_like(values[:1])))
 
 
 def generated(mesh):

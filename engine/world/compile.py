@@ -21,6 +21,7 @@ from .placement import place
 from .sky import environment_of
 from .texturing import EVEN, TexturedGlow
 from .touching import moved_apart
+from .views import CameraSpace
 
 FARTHEST = 1e12
 """In render space; Embree's robust test overflows from 3e12 on, and finds nothing."""
@@ -64,6 +65,7 @@ class CompiledWorld:
     emitters    the patches that emit: the last ones of `lights`, made of the last ones of the triangles that stand still
     attributes  {key: `Attribute`}: what textures are looked up at
     glow        what textured emitters shine with, see `texturing`
+    camera      the `CameraSpace`
     background  (3, 1) float32 [W m^-2 sr^-1]
     media       what is inside of bodies; None where nobody asks
     passing     what passes surfaces straight on; None where nobody asks
@@ -81,6 +83,7 @@ class CompiledWorld:
     passing: Passing | None
     attributes: dict
     glow: object
+    camera: CameraSpace
     warnings: tuple
 
 
@@ -166,8 +169,9 @@ def compile_world(
     # Asked for with every feature there is, it may still be missing or black.
     environment = environment_of(scene.world) if has_environment and scene.world.may_vary else None
     passing = passing_of(materials) if passing_of else None
-    attributes, lost = compile_attributes(parts, keep, material, table.wanted)
-    glow = TexturedGlow(table.glowing, material, attributes) if table.glowing else EVEN
+    attributes, lost = compile_attributes(parts, keep, material, table.wanted, scene.objects, owner[keep])
+    camera = CameraSpace.of(scene.camera, frame)
+    glow = TexturedGlow(table.glowing, triangles, attributes, frame, camera) if table.glowing else EVEN
     return CompiledWorld(
         frame=frame,
         accel=accel,
@@ -181,6 +185,7 @@ def compile_world(
         passing=passing,
         attributes=attributes,
         glow=glow,
+        camera=camera,
         warnings=(*warnings, *lost),
     )
 

@@ -1,6 +1,6 @@
 """Where rays meet the scene: points, normals, and where rays go on."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -23,6 +23,7 @@ class Surface:
     prim      (M,) triangles
     material  (M,) rows of the materials
     u, v      (M,) where in the triangle: barycentric coordinates of its second and third corner
+    t         (M,) how far the rays have come
     """
 
     p: np.ndarray
@@ -35,6 +36,11 @@ class Surface:
     material: np.ndarray
     u: np.ndarray
     v: np.ndarray
+    t: np.ndarray
+
+    def take(self, lanes):
+        """The points `lanes`."""
+        return Surface(*(getattr(self, f.name).take(lanes, axis=-1) for f in fields(self)))
 
 
 def flat_normals(triangles, prim, u, v, n, sign):
@@ -81,7 +87,7 @@ def interact(triangles, shading_normals, d, hits):
     offset += triangles.extent.take(prim)
     offset *= np.float32(START_ULPS * EPS32)
     ns = shading_normals(triangles, prim, u, v, n, sign)
-    return Surface(p, wo, n, ns, p + offset * n, sign > 0, prim, triangles.material.take(prim), u, v)
+    return Surface(p, wo, n, ns, p + offset * n, sign > 0, prim, triangles.material.take(prim), u, v, hits.t)
 
 
 def leave_in_front(surface, wi):

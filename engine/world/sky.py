@@ -1,41 +1,47 @@
 """A texture of all directions around a scene as a light: worked out where rays escape, and sampled in proportion to a picture of it."""
 
 from dataclasses import dataclass, replace
+from types import SimpleNamespace
 
 import numpy as np
 
 from ..constants import LUMINANCE
 from ..maths.equirect import direction_to_square, square_to_direction
 from ..scene.environment import EnvironmentMap
-from ..scene.points import Points
+from ..scene.points import OnPlane
 from ..scene.textured import is_texture
 from .environment import Environment
 from .texturing import clean
 
 SHAPE = (256, 512)
 """Rows and columns of the picture by which directions are chosen; what it misses is found by scattered rays."""
+_PLACES = ("generated", "object", "position", "camera")
 _FLOOR = 2.0**-6
 """Every direction is chosen at least so often, compared to the mean."""
 
 
-class Directions(Points):
-    """Points infinitely far away in the directions d (3, N): what the texture of a world is handed as `at`."""
+class Directions(OnPlane):
+    """Points infinitely far away in the directions d (3, N), which face the viewer: what the texture of a world is handed as `at`."""
 
-    across = None
+    d = None
 
-    def __init__(self, d):
-        super().__init__()
-        self.d = d
-
-    @property
-    def count(self):
-        """N."""
-        return self.d.shape[1]
+    def __init__(self, d, is_seen=False):
+        super().__init__(d)
+        self.d, self._is_seen = d, is_seen
 
     def attribute(self, key):
-        """Every attribute of a direction is the direction."""
-        none = np.zeros_like(self.d)
-        return self.d, none, none
+        """All places of a direction are the direction; there is no mesh and no object, whose attributes are 0."""
+        found, *along = super().attribute(key)
+        return (self.d if key[0] in _PLACES else np.zeros_like(found)), *along
+
+    @property
+    def surface(self):
+        """What is seen there."""
+        return SimpleNamespace(p=self.d, n=-self.d, ns=-self.d, is_front=np.ones(1, bool))
+
+    def path(self, output):
+        """See `textures.light_path`: only whether the camera looks is known."""
+        return np.full((1, 1), {"camera": self._is_seen, "depth": not self._is_seen}.get(output, 0), np.float32)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -59,7 +65,7 @@ class Sky(Environment):
 
     def radiance(self, d):
         """See `Environment.radiance`."""
-        return _radiance(self.texture, d)
+        return _radiance(self.texture, d, is_seen=True)
 
     def hit(self, d):
         """See `Environment.hit`."""
@@ -77,6 +83,6 @@ def environment_of(world):
     return Sky.of(world) if is_texture(world.radiance) else Environment.of(world)
 
 
-def _radiance(texture, d):
-    """L (3, N) along d (3, N)."""
-    return np.array(np.broadcast_to(clean(Directions(d).value(texture)), d.shape))
+def _radiance(texture, d, is_seen=False):
+    """L (3, N) along d (3, N); `is_seen` by the camera."""
+    return np.array(np.broadcast_to(clean(Directions(d, is_seen).value(texture)), d.shape))

@@ -6,6 +6,7 @@ import numpy as np
 
 from ..maths.vectors import cross, dot, length
 from ..scene.points import Points
+from .views import LampView
 
 _LONGEST = 2.0**10
 """How much longer than wide footprints may be: grazing rays see the mean of what they pass anyway."""
@@ -16,12 +17,14 @@ class TexturePoints(Points):
 
     attributes    {key: `Attribute`} of the world
     prim, u, v    (N,) triangles and barycentric coordinates
+    view          who looks at them, see `wavefront.views`; None: no texture asks
     across        None, or the half-axes of footprints in barycentric coordinates: two (2, N)
     """
 
-    def __init__(self, attributes, prim, u, v, across=None):
+    def __init__(self, attributes, prim, u, v, view=None, across=None):
         super().__init__()
         self.attributes, self.prim, self.u, self.v, self.across = attributes, prim, u, v, across
+        self._view = view
 
     @property
     def count(self):
@@ -31,11 +34,22 @@ class TexturePoints(Points):
     def take(self, lanes):
         """The points `lanes` (M,)."""
         across = self.across and tuple(axis.take(lanes, axis=1) for axis in self.across)
-        return TexturePoints(self.attributes, self.prim.take(lanes), self.u.take(lanes), self.v.take(lanes), across)
+        view = self._view and self._view.take(lanes)
+        return TexturePoints(self.attributes, self.prim.take(lanes), self.u.take(lanes), self.v.take(lanes), view, across)
 
     def moved(self, du, dv):
         """The points at du, dv (N,) from these in barycentric coordinates; they may be beyond the edges of their triangles."""
-        return TexturePoints(self.attributes, self.prim, self.u + du, self.v + dv, self.across)
+        return TexturePoints(self.attributes, self.prim, self.u + du, self.v + dv, self._view, self.across)
+
+    def moved_by(self, a):
+        """The points at a (3, N) from these, render space, along their triangles."""
+        return self.moved(*barycentric(a, *self.edges, self.surface.n))
+
+    def on(self, surface):
+        """The points on a `Surface` that differs from theirs in its shading normals."""
+        points = TexturePoints(self.attributes, self.prim, self.u, self.v, self._view, self.across)
+        points.once("surface", lambda: surface)
+        return points
 
     def beside(self, axis):
         """The points moved by half-axis 0 or 1 of their footprints."""
@@ -43,7 +57,62 @@ class TexturePoints(Points):
 
     def attribute(self, key):
         """An attribute at the points, see `Attribute.at`."""
+        if key in _PLACES:
+            return self.once(key, lambda: _PLACES[key](self))
         return self.once(key, lambda: self.attributes[key].at(self.prim, self.u, self.v))
+
+    @property
+    def d(self):
+        """(3, N) the directions of the rays that look at the points, unit."""
+        return self._view.d
+
+    @property
+    def frame(self):
+        """The `Frame` of render space."""
+        return self._view.frame
+
+    @property
+    def surface(self):
+        """The `Surface`: its shading normals are as yet without relief."""
+        return self.once("surface", lambda: self._view.surface(self.prim, self.u, self.v))
+
+    @property
+    def edges(self):
+        """The edges of the triangles, two (3, N), render space."""
+        return self.once("edges", lambda: self._view.edges(self.prim))
+
+    @property
+    def in_window(self):
+        """Where in the picture the camera sees the points, (3, N), see `views.CameraSpace.window`."""
+        return self._view.camera.window(self.surface.p)
+
+    @property
+    def pixel_width(self):
+        """How wide (N,) a pixel is where the points are, render space."""
+        return self._view.pixel(self.prim)
+
+    def at_time(self, a):
+        """Vectors a (3, N) of objects as they are placed at the middle of the shutter, as they are at the time of the rays."""
+        return self._view.turned(self.prim, a)
+
+    def path(self, output):
+        """What `LightPath` says of the rays, (1, 1) or (1, N)."""
+        return self._view.path(output)
+
+
+def _position(at):
+    # Subtracted as a whole: far from the origin single precision holds the sum, but not both of its parts.
+    p = (at.surface.p / np.float64(at.frame.scale) + at.frame.origin[:, None]).astype(np.float32)
+    return p, *(e / np.float32(at.frame.scale) for e in at.edges)
+
+
+def _camera(at):
+    camera = at._view.camera
+    return camera.points(at.surface.p), *(camera.vectors(e) for e in at.edges)
+
+
+_PLACES = {("position", ""): _position, ("camera", ""): _camera}
+"""What points know without any mesh."""
 
 
 def footprints(e1, e2, wo, width):
@@ -98,18 +167,22 @@ class TexturedGlow:
     """What textured emitters shine with, where the tables say 1.
 
     textures    {row of the materials: emission}
-    material    (F,) rows of all triangles
+    triangles   the world's
     attributes  {key: `Attribute`}
+    frame       the `Frame` of render space
+    camera      the `CameraSpace`
     """
 
     textures: dict
-    material: np.ndarray
+    triangles: object
     attributes: dict
+    frame: object
+    camera: object
 
     def seen(self, L, points):
         """See `EvenGlow.seen`."""
         result = L.copy()
-        material = self.material.take(points.prim)
+        material = self.triangles.material.take(points.prim)
         for row, texture in self.textures.items():
             lanes = np.nonzero(material == row)[0]
             if lanes.size:
@@ -119,4 +192,5 @@ class TexturedGlow:
     def lit(self, E, k, p, wi, distance):
         """See `EvenGlow.lit`; `k` are columns of `maths.patches`, and the triangle `prim` of each."""
         u, v = np.clip(barycentric(p + wi * distance - k.v0, k.e1, k.e2, k.normal), 0, 1)
-        return self.seen(E, TexturePoints(self.attributes, np.broadcast_to(k.prim, u.shape), u, v))
+        view = LampView(self, k, wi, distance)
+        return self.seen(E, TexturePoints(self.attributes, np.broadcast_to(k.prim, u.shape), u, v, view))

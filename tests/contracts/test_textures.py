@@ -7,28 +7,39 @@ import pytest
 
 from glanz.engine import (
     TEXTURES,
+    Attribute,
     Average,
     Bitmap,
     BrickTexture,
+    BumpMap,
+    CameraData,
     CheckerTexture,
     Coordinates,
+    Fresnel,
     GaborTexture,
+    Geometry,
     GradientTexture,
     ImageTexture,
+    LayerWeight,
+    LightPath,
     LinearTexture,
     Luminance,
     MagicTexture,
     NoiseTexture,
+    NormalMap,
+    ObjectValue,
     SceneError,
+    Tangent,
     VoronoiTexture,
     WaveTexture,
     WhiteNoiseTexture,
+    Wireframe,
 )
 from glanz.engine.interfaces import Texture
 from glanz.engine.maths.fractals import FRACTALS
 from glanz.engine.maths.voronoi import FEATURES
 from glanz.engine.scene.coordinates import GENERATED, UV
-from glanz.engine.scene.points import Points as BasePoints, Probes, average_of
+from glanz.engine.scene.points import OnPlane, Probes, average_of
 from glanz.engine.scene.textured import folded, with_inner
 from glanz.engine.textures.gradient import _SHAPES
 from glanz.engine.textures.wave import _PROFILES as PROFILES, _SHAPES as SHAPES
@@ -77,6 +88,22 @@ EXAMPLES = {
     ],
     "luminance": [Luminance(NoiseTexture(is_coloured=True))],
     "average": [Average(GENERATED)],
+    "attribute": [Attribute("a", output) for output in ("colour", "number", "alpha", "opacity")],
+    "object value": [ObjectValue("a", output) for output in ("colour", "number", "mean", "alpha")],
+    "geometry": [
+        Geometry(output)
+        for output in ("normal", "object normal", "true normal", "incoming", "reflection", "parametric", "backfacing")
+    ],
+    "camera data": [CameraData(output) for output in ("window", "vector", "depth", "distance")],
+    "fresnel": [Fresnel(), Fresnel(NoiseTexture(), Geometry("incoming"))],
+    "layer weight": [LayerWeight(b, output=output) for b in (0.0, 0.3, NoiseTexture(), 1.0) for output in ("facing", "fresnel")],
+    "tangent": [Tangent(direction) for direction in ("x", "y", "z", "uv")],
+    "wireframe": [Wireframe(0.5), Wireframe(1.0, True)],
+    "normal map": [
+        NormalMap(NoiseTexture(is_coloured=True), 0.5, space=space)
+        for space in ("tangent", "object", "world", "blender object", "blender world")
+    ],
+    "bump map": [BumpMap(NoiseTexture()), BumpMap(NoiseTexture(), NoiseTexture(), 0.5, Geometry("normal"), True)],
 }
 ALL = [value for key, plugin in TEXTURES.items() for value in EXAMPLES.get(key, [plugin()])]
 N = 4096
@@ -84,22 +111,14 @@ N = 4096
 each = pytest.mark.parametrize("value", ALL, ids=lambda v: v.key)
 
 
-class Points(BasePoints):
-    """Points as textures are handed them: all coordinates are p (3, N), with footprints of half-axes `axes` if any."""
-
-    def __init__(self, p, axes=None):
-        super().__init__()
-        self.p, self.axes, self.count = p, axes, p.shape[1]
-        self.across = axes
-
-    def attribute(self, key):
-        raise AssertionError("the points are given")
+class Points(OnPlane):
+    """Points as textures are handed them: all coordinates are p (3, N), with footprints of half-axes `across` if any."""
 
     def look_up(self, where):
-        return (self.p, self.axes) if isinstance(where, Coordinates) else super().look_up(where)
+        return (self.p, self.across) if isinstance(where, Coordinates) else super().look_up(where)
 
     def beside(self, axis):
-        return Points(self.p + self.axes[axis], self.axes)
+        return Points(self.p + self.across[axis], self.across)
 
 
 def somewhere(seed=1, n=N, scale=8.0):
@@ -163,7 +182,7 @@ def test_the_average_is_what_to_expect(value):
 
 
 def test_the_average_catches_probes_in_one_half_of_the_cube(monkeypatch):
-    monkeypatch.setattr(Probes, "attribute", lambda self, key: (0.5 * self._p, *np.eye(3, dtype=np.float32)[:2, :, None]))
+    monkeypatch.setattr(Probes, "attribute", lambda self, key: (0.5 * self.p, *np.eye(3, dtype=np.float32)[:2, :, None]))
     with pytest.raises(AssertionError):
         test_the_average_is_what_to_expect(LinearTexture((GENERATED,), (1.0,)))
 
@@ -254,6 +273,15 @@ def test_wide_footprints_catch_a_checker_that_ignores_them(monkeypatch):
         (GradientTexture("steep"), "steep"),
         (LinearTexture((IMAGES[0],), ()), "factor"),
         (LinearTexture((IMAGES[0],), ((1, 2),)), "factor"),
+        (Attribute("a", "beta"), "beta"),
+        (ObjectValue("a", "beta"), "beta"),
+        (Geometry("up"), "up"),
+        (CameraData("up"), "up"),
+        (LayerWeight(output="up"), "up"),
+        (LightPath("red"), "red"),
+        (Tangent("w"), "w"),
+        (NormalMap(space="screen"), "screen"),
+        (BumpMap(width=0.0), "width"),
     ],
 )
 def test_parameters_out_of_range_are_refused_by_name(value, word):
@@ -263,8 +291,8 @@ def test_parameters_out_of_range_are_refused_by_name(value, word):
 
 
 def test_coordinates_out_of_range_are_refused():
-    with pytest.raises(SceneError, match="camera"):
-        Coordinates(source="camera").check("Wood")
+    with pytest.raises(SceneError, match="screen"):
+        Coordinates(source="screen").check("Wood")
     with pytest.raises(SceneError, match="finite"):
         Coordinates(matrix=np.full((4, 4), np.inf)).check("Wood")
     with pytest.raises(SceneError, match="shape"):

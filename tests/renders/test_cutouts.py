@@ -140,6 +140,6 @@ def test_cut_outs_catch_shadows_of_the_whole_card(monkeypatch):
 
 def test_alpha_catches_what_stays_at_full_weight(monkeypatch):
     looked_up = passing._looked_up
-    monkeypatch.setattr(passing, "_looked_up", lambda *args: ((found := looked_up(*args))[0] ** 2, found[1]))
+    monkeypatch.setattr(passing, "_looked_up", lambda *args, **kind: ((found := looked_up(*args, **kind))[0] ** 2, found[1]))
     with pytest.raises(AssertionError):
         test_alpha_is_transparent_beside_scaled_lobes({"alpha": 0.5})

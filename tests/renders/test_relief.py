@@ -19,6 +19,7 @@ from glanz.engine import (
 )
 from glanz.engine.maths.vectors import dot
 from glanz.engine.plan import Plan
+from glanz.engine.textures import bump_map, normal_map
 from glanz.engine.wavefront import relief
 from glanz.tests import helpers as h, textured as t
 from glanz.tests.contracts.test_textures import Points
@@ -61,8 +62,8 @@ def test_a_bump_on_a_slope_is_the_normal_of_the_slope(distance):
 
 
 def test_slopes_catch_a_bump_of_the_other_sign(monkeypatch):
-    height = relief._height
-    monkeypatch.setattr(relief, "_height", lambda r, at: -height(r, at))
+    height = bump_map._height
+    monkeypatch.setattr(bump_map, "_height", lambda bump, at: -height(bump, at))
     with pytest.raises(AssertionError):
         test_a_bump_on_a_slope_is_the_normal_of_the_slope(0.5)
 
@@ -121,7 +122,7 @@ def test_a_normal_map_turns_towards_u_and_v():
 
 
 def test_directions_catch_a_bitangent_of_the_other_hand(monkeypatch):
-    monkeypatch.setattr(relief, "cross", lambda a, b: -np.cross(a, b, axis=0))
+    monkeypatch.setattr(normal_map, "cross", lambda a, b: -np.cross(a, b, axis=0))
     with pytest.raises(AssertionError):
         test_a_normal_map_turns_towards_u_and_v()
 
@@ -174,6 +175,6 @@ def test_leaving_out_and_batches_change_no_bit(monkeypatch):
 def test_reliefs_ask_by_name_and_are_checked():
     found = Requirements.of(t.facing(FLAT, material(BumpMap(SLOPE))), SMALL).as_dict()
     assert found["relief"] == found["footprints"] == ["bent"]
-    for wrong, word in ((BumpMap(SLOPE, np.inf), "distance"), (NormalMap(SLOPE, -1.0), "strength"), (BumpMap((1.0, 2.0)), "input")):
+    for wrong, word in ((NormalMap(SLOPE, space="screen"), "space"), (BumpMap((1.0, 2.0)), "input")):
         with pytest.raises(SceneError, match=word):
             h.pixels(t.facing(FLAT, material(wrong)), SMALL)

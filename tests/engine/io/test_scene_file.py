@@ -24,6 +24,7 @@ from glanz.engine import (
     Material,
     Medium,
     Mesh,
+    MeshAttribute,
     NormalMap,
     Object,
     PerspectiveCamera,
@@ -151,8 +152,14 @@ def textured_scene():
     mesh = Mesh(
         name="m", vertices=rng.standard_normal((3, 4)), triangles=rng.integers(0, 4, (3, 5)), generated=rng.random((3, 4)),
         uv_layers=("first", "second"), uvs=rng.random((2, 2, 9)), uv_indices=rng.integers(0, 9, (3, 5)),
+        attributes=(
+            MeshAttribute(name="point", values=rng.random((1, 4))),
+            MeshAttribute(name="", values=rng.random((4, 9)), indices=rng.integers(0, 9, (3, 5))),
+        ),
     )  # fmt: skip
-    return Scene(camera=None, objects=(Object(name="o", mesh=mesh, materials=(material, Material(name="n", emission=image))),))
+    values = (("colour", (0.1, 1 / 3, 0.5, 1.0)), ("random", (0.25,) * 4))
+    materials = (material, Material(name="n", emission=image))
+    return Scene(camera=None, objects=(Object(name="o", mesh=mesh, materials=materials, values=values),))
 
 
 def test_textures_come_back_and_pictures_stay_shared(tmp_path):
@@ -169,6 +176,21 @@ def test_every_texture_with_its_defaults_comes_back(tmp_path):
     scene = Scene(camera=None, objects=(Object(name="o", mesh=mesh, materials=materials),))
     write_scene(tmp_path / "a", scene, Settings())
     assert same(scene, read_scene(tmp_path / "a")[0])
+
+
+def test_reliefs_of_files_written_when_they_were_no_textures_are_read(tmp_path):
+    write_scene(tmp_path / "a", textured_scene(), Settings())
+
+    def as_it_was(document):
+        for record in [r for r in document["shared"] if r["type"] in ("texture/normal map", "texture/bump map")]:
+            kept = {"texture/normal map": ("texture", "strength", "layer"), "texture/bump map": ("texture", "distance", "strength")}
+            fields = {name: record[name] for name in kept[record["type"]]}
+            name = {"texture/normal map": "NormalMap", "texture/bump map": "BumpMap"}[record["type"]]
+            record.clear()
+            record.update(type=name, **fields)
+
+    back = read_scene(edited(tmp_path / "a", tmp_path / "b", as_it_was))[0]
+    assert same(textured_scene(), back)
 
 
 def test_a_texture_stands_only_where_it_may(tmp_path):

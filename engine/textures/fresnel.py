@@ -1,0 +1,30 @@
+"""The share of light that a smooth boundary reflects."""
+
+from dataclasses import dataclass
+
+from ..maths.facing import facing_fresnel
+from ..maths.vectors import dot
+from . import registry
+
+
+@registry.add
+@dataclass(frozen=True, eq=False)
+class Fresnel:
+    """The share of light towards the viewer that a boundary of index `ior` reflects (Born & Wolf, 1.5.2); inside of it, of 1 / ior.
+
+    normal  unit, world space; None: the shading normal
+    """
+
+    key = "fresnel"
+    label = "Fresnel"
+    is_pure = False
+
+    ior: object = 1.5
+    normal: object = None
+
+    def check(self, owner):
+        pass
+
+    def eval(self, at):
+        n = at.surface.ns if self.normal is None else at.value(self.normal)
+        return facing_fresnel(dot(at.d, n), at.value(self.ior)[0], at.surface.is_front)[None]
