@@ -12,6 +12,7 @@ from .inside import absorbs, medium_of, with_dispersion
 from .lecture import is_lecture, lecture_medium, lecture_surface
 from .nodes import has_nodes, output_node
 from .principled import principled_lobes
+from .relief import displacement_of
 from .shaders import surface_of
 from .values import Reader
 
@@ -36,9 +37,7 @@ def export_material(material, findings, bitmaps=None):
     if output is None:
         findings.note("the node tree has no active output, so the material is black", owner)
         return Material(name=material.name)
-    reader = Reader(owner, findings)
-    if reader.is_linked(output, "Displacement"):
-        findings.note("displacement is left out", owner)
+    reader = Reader(owner, findings, bitmaps)
     medium = medium_of(material, output, owner, findings)
     # Without a surface a volume has a boundary that is not seen.
     is_bare = absorbs(medium) and not reader.is_linked(output, "Surface")
@@ -46,7 +45,7 @@ def export_material(material, findings, bitmaps=None):
     if not getattr(material, "use_transparent_shadow", True) and any(isinstance(lobe, Transparent) for lobe in surface.lobes):
         findings.note("Transparent Shadows is off, but transparent surfaces let shadow rays pass all the same", owner)
     checked = _checked(material.name, owner, surface, findings)
-    relief = next(filter(None, surface.reliefs), ())
+    relief = displacement_of(reader, output) + next(filter(None, surface.reliefs), ())
     if len(surface.reliefs) > 1:
         findings.note("its shaders have different normals, all are rendered with those of the first that is bent", owner)
     return replace(checked, lobes=with_dispersion(checked.lobes, material), medium=medium, relief=relief)

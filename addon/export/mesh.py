@@ -3,20 +3,23 @@
 import numpy as np
 
 from ...engine import Mesh
+from .attributes import mesh_attributes
 
 
-def export_mesh(mesh, name, attributes=()):
+def export_mesh(mesh, name, attributes=(), groups=()):
     """The engine's `Mesh` for an evaluated `bpy.types.Mesh`, in object space; its arrays are copies.
 
-    `attributes` are what textures are looked up at, as `Coordinates.attribute` has them; others are left out.
+    `attributes` are what textures are looked up at, as `Material.attributes` has them; others are left out. `groups` are
+    the names of the vertex groups.
     """
     triangles = mesh.loop_triangles
     if not len(triangles):
         mesh.calc_loop_triangles()
         triangles = mesh.loop_triangles
     flat = is_flat(mesh)
-    layers = uv_layers(mesh, [layer for source, layer in attributes if source == "uv"])
-    loops = np.zeros((3, 0)) if flat and not layers else _columns(triangles, "loops", np.int32)
+    layers = uv_layers(mesh, [layer for source, layer in attributes if source in ("uv", "tangent")])
+    names = {name for source, name in attributes if source in ("attribute", "number", "alpha", "colour alpha")}
+    loops = np.zeros((3, 0)) if flat and not (layers or names) else _columns(triangles, "loops", np.int32)
     return Mesh(
         name=name,
         vertices=vertices(mesh),
@@ -28,6 +31,7 @@ def export_mesh(mesh, name, attributes=()):
         uvs=_uvs(layers, len(mesh.loops)),
         uv_indices=loops if layers else np.zeros((3, 0)),
         generated=generated(mesh) if ("generated", "") in attributes else np.zeros((3, 0)),
+        attributes=mesh_attributes(mesh, loops, names, groups),
     )
 
 

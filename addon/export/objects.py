@@ -11,6 +11,7 @@ from .light import export_light
 from .material import export_material, is_volume_only
 from .mesh import export_mesh
 from .motion import STILL
+from .object_values import object_values
 
 POLL_EVERY = 256
 """Instances between two questions whether to stop."""
@@ -24,16 +25,19 @@ _NOT_RENDERED = {
     "GPENCIL": "grease pencil is not rendered",
     "GREASEPENCIL": "grease pencil is not rendered",
 }
+_OF_OBJECTS = ("value", "world_from_object", "object_from_world", "position", "camera")
+"""What materials ask of objects, not of their meshes."""
 _RAY_VISIBILITY = ("visible_camera", "visible_diffuse", "visible_glossy", "visible_transmission", "visible_shadow")
 
 
 @dataclass(frozen=True)
 class _Placed:
-    """An instance before its matrix is checked: who it is, what it is made of."""
+    """An instance before its matrix is checked: who it is, what it is made of, and the names of the values that are asked of it."""
 
     name: str
     mesh: object
     materials: tuple
+    asked: tuple
 
 
 def export_objects(depsgraph, findings, material_override=None, check=lambda: None, tracks=STILL):
@@ -44,7 +48,7 @@ def export_objects(depsgraph, findings, material_override=None, check=lambda: No
     `motion`. Raises SceneError naming the object that failed.
     """
     parts = _Parts(findings, material_override)
-    placed, matrices, identities, lights = [], [], [], []
+    placed, matrices, values, identities, lights = [], [], [], [], []
     for i, instance in enumerate(depsgraph.object_instances):
         if i % POLL_EVERY == 0:
             check()
@@ -59,12 +63,13 @@ def export_objects(depsgraph, findings, material_override=None, check=lambda: No
             elif instance.show_self and (part := parts.of(ob)):
                 placed.append(part)
                 matrices.append(matrix)
+                values.append(object_values(instance, part.asked, depsgraph))
                 identities.append(tracks.start(instance, matrix, part.mesh))
         except GlanzError:
             raise
         except Exception as error:
             raise SceneError(f"object '{ob.name}' cannot be exported: {type(error).__name__}: {error}") from error
-    objects = _placed_objects(placed, matrices, findings)
+    objects = _placed_objects(placed, matrices, values, findings)
     return tracks.moved(identities, objects), tuple(lights)
 
 
@@ -75,7 +80,7 @@ def _placed_light(ob, matrix, findings):
     return export_light(ob, matrix, findings)
 
 
-def _placed_objects(parts, matrices, findings):
+def _placed_objects(parts, matrices, values, findings):
     """The objects, None where the matrix leaves nothing to see."""
     if not parts:
         return []
@@ -87,8 +92,8 @@ def _placed_objects(parts, matrices, findings):
             cause = "the scale leaves no surface" if is_finite else "the transform is not finite"
             findings.note(f"{cause}, so it is left out", f"object '{part.name}'")
     return [
-        Object(name=part.name, mesh=part.mesh, world_from_object=matrix, materials=part.materials) if is_visible else None
-        for part, matrix, is_visible in zip(parts, matrices, visible, strict=True)
+        Object(name=part.name, mesh=part.mesh, world_from_object=matrix, materials=part.materials, values=own) if is_visible else None
+        for part, matrix, own, is_visible in zip(parts, matrices, values, visible, strict=True)
     ]
 
 
@@ -136,19 +141,22 @@ class _Parts:
             return None
         self._note_ignored(ob)
         values = tuple(self._material(material) for material in materials)
-        return _Placed(ob.name, self._mesh(ob.data, frozenset().union(*(value.attributes for value in values))), values)
+        attributes = frozenset().union(*(value.attributes for value in values))
+        asked = tuple(sorted(name for source, name in attributes if source == "value"))
+        return _Placed(ob.name, self._mesh(ob, frozenset(a for a in attributes if a[0] not in _OF_OBJECTS)), values, asked)
 
-    def _mesh(self, data, attributes):
+    def _mesh(self, ob, attributes):
+        data = ob.data
         # Objects whose textures ask for other things get a mesh of their own.
         key = data.as_pointer(), attributes
         if key not in self._meshes:
-            self._meshes[key] = export_mesh(data, data.name, attributes)
+            self._meshes[key] = export_mesh(data, data.name, attributes, [group.name for group in ob.vertex_groups])
             self._note_missing(data, attributes)
         return self._meshes[key]
 
     def _note_missing(self, data, attributes):
         for source, layer in attributes:
-            if source == "uv" and layer and layer not in data.uv_layers:
+            if source in ("uv", "tangent") and layer and layer not in data.uv_layers:
                 self._findings.note(f"there is no UV map '{layer}', it counts as 0", f"mesh '{data.name}'")
 
     def _material(self, material):

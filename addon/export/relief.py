@@ -1,45 +1,47 @@
-"""Blender's Bump and Normal Map nodes as the engine's reliefs."""
+"""What bends the normals of Blender's shaders, as the engine's reliefs."""
 
-from ...engine import BumpMap, NormalMap
-from .colours import as_texture, varies
+from ...engine import BumpMap, Geometry, LinearTexture
+from .colours import added, as_texture, times, varies
 from .nodes import input_by_identifier
 
 
 def relief_of(reader, node):
-    """The reliefs that feed the Normal input of a shader node, a tuple, first to last; notes what is not one."""
-    socket = input_by_identifier(node, "Normal")
-    if socket is None or not reader.has_points:
+    """What feeds the Normal input of a shader node, as a tuple of one relief, or of none."""
+    if not reader.has_points:
         return ()
-    behind, _, output = reader.source(socket)
-    if output is None:
+    normal = reader.vector(node, None, "Normal")
+    if normal is None or (isinstance(normal, Geometry) and normal.output == "normal"):
         return ()
-    read = _TABLE.get(output.node.type)
-    if read is None:
-        reader.note(f"{output.node.bl_label} is not supported as a normal and is left out")
+    return (as_texture(normal) if varies(normal) else LinearTexture(offset=normal),)
+
+
+def displacement_of(reader, output):
+    """What feeds the Displacement of a material's output node, as a tuple of one relief, or of none."""
+    reader, _, end = reader.source(input_by_identifier(output, "Displacement"))
+    if end is None or not reader.has_points:
         return ()
-    inside = behind.beyond(output.node)
-    return () if inside is None else read(inside, output.node)
-
-
-def _bump(reader, node):
-    below = relief_of(reader, node)
-    height = as_texture(reader.value(node, "Height"))
-    if not varies(height):
-        # What is equally high everywhere is flat.
-        return below
-    distance = reader.number(node, "Distance", 1.0)
-    strength = max(reader.number(node, "Strength", 1.0), 0.0)
-    return (*below, BumpMap(height, -distance if node.invert else distance, strength))
-
-
-def _normal_map(reader, node):
-    colour = as_texture(reader.value(node, "Color"))
-    if node.space != "TANGENT":
-        reader.note(f"Normal Map in {node.space.lower()} space is left out, only tangent space is supported")
+    inside = reader.beyond(end.node)
+    read = _HEIGHTS.get(end.node.type)
+    if inside is None or read is None:
+        reader.note("displacement by other nodes than Displacement and Vector Displacement is left out")
         return ()
-    if getattr(node, "convention", "OPENGL") != "OPENGL":
-        reader.note("Normal Map with another convention than OpenGL is read as OpenGL")
-    return (NormalMap(colour, max(reader.number(node, "Strength", 1.0), 0.0), node.uv_map),)
+    reader.note("displacement is rendered as bump, outlines and shadows stay as they are")
+    height = read(inside, end.node)
+    return (BumpMap(as_texture(height), 1.0),) if varies(height) else ()
 
 
-_TABLE = {"BUMP": _bump, "NORMAL_MAP": _normal_map}
+def _height(reader, node):
+    return times(added(reader.value(node, "Height"), -reader.number(node, "Midlevel", 0.5)), reader.value(node, "Scale", 1.0))
+
+
+def _height_of_vector(reader, node):
+    shifted = added(reader.value(node, "Vector", (0.0, 0.0, 0.0)), -reader.number(node, "Midlevel"))
+    vector = times(shifted, reader.value(node, "Scale", 1.0))
+    if not varies(vector):
+        return vector
+    # Heights are the mean of three components. The second of tangent space is that along the normal.
+    along = (0.0, 3.0, 0.0) if node.space == "TANGENT" else LinearTexture((Geometry("true normal"),), (3.0,))
+    return LinearTexture((as_texture(vector),), (along,))
+
+
+_HEIGHTS = {"DISPLACEMENT": _height, "VECTOR_DISPLACEMENT": _height_of_vector}

@@ -5,8 +5,9 @@ import numpy as np
 import pytest
 
 from glanz.addon.export.principled import principled_lobes
-from glanz.engine import Dielectric, Lambert, LambertTransmission, Mirror, Phong, Transparent
+from glanz.engine import BumpMap, Dielectric, Lambert, LambertTransmission, Mirror, Phong, Transparent
 from glanz.tests.addon import blender
+from glanz.tests.textured import extremes
 
 
 def _exported(material):
@@ -371,9 +372,17 @@ def test_impossible_strengths_are_cut_off_and_named():
     assert "material 'Hole'" in warnings[0]
 
 
-def test_displacement_is_named():
+def test_displacement_is_a_bump_and_named():
     material = blender.new_material("Rough", "ShaderNodeBsdfDiffuse")
     tree = material.node_tree
     output = tree.get_output_node("CYCLES")
-    tree.links.new(tree.nodes.new("ShaderNodeDisplacement").outputs[0], output.inputs["Displacement"])
-    assert "displacement is left out: material 'Rough'" in _exported(material)[1]
+    node = blender.add_node(tree, "ShaderNodeDisplacement", Scale=0.5, Midlevel=0.25)
+    tree.links.new(tree.nodes.new("ShaderNodeTexChecker").outputs["Fac"], node.inputs["Height"])
+    tree.links.new(node.outputs[0], output.inputs["Displacement"])
+    exported, warnings = _exported(material)
+    assert any("displacement is rendered as bump" in line and "material 'Rough'" in line for line in warnings)
+    (relief,) = exported.relief
+    assert type(relief) is BumpMap
+    assert relief.distance == 1.0
+    low, high = extremes(relief.texture)
+    assert (low[0], high[0]) == pytest.approx((0.5 * (0 - 0.25), 0.5 * (1 - 0.25)))

@@ -48,7 +48,7 @@ def test_bump(shader, inverted):
     (relief,), warnings = exported(material)
     assert warnings == ()
     assert type(relief) is BumpMap
-    assert (relief.distance, relief.strength) == (-0.25 if inverted else 0.25, 0.5)
+    assert (relief.distance, relief.strength, relief.is_dug, relief.normal) == (0.25, 0.5, inverted, None)
     assert type(relief.texture) is CheckerTexture
 
 
@@ -65,24 +65,32 @@ def test_normal_map():
 def test_a_bump_on_a_normal_map_comes_after_it():
     material, tree, node = bent()
     add_map(tree, add_bump(tree, node))
-    reliefs, _ = exported(material)
-    assert [type(relief) for relief in reliefs] == [NormalMap, BumpMap]
+    (relief,), _ = exported(material)
+    assert (type(relief), type(relief.normal)) == (BumpMap, NormalMap)
 
 
-def test_what_is_left_out_is_named():
+@pytest.mark.parametrize("space", ["OBJECT", "WORLD", "BLENDER_OBJECT", "BLENDER_WORLD"])
+def test_normal_maps_come_with_their_space(space):
     material, tree, node = bent()
-    add_map(tree, node).space = "OBJECT"
-    reliefs, (warning,) = exported(material)
-    assert reliefs == ()
-    assert "object space" in warning
+    add_map(tree, node).space = space
+    (relief,), warnings = exported(material)
+    assert warnings == ()
+    assert relief.space == space.lower().replace("_", " ")
 
 
-def test_other_nodes_for_normals_are_named():
+def test_a_bump_of_equal_height_is_none():
+    material, tree, node = bent()
+    bump = tree.nodes.new("ShaderNodeBump")
+    tree.links.new(bump.outputs[0], blender.node_input(node, "Normal"))
+    assert exported(material) == ((), ())
+
+
+def test_any_vector_may_be_a_normal():
     material, tree, node = bent()
     tree.links.new(tree.nodes.new("ShaderNodeTexChecker").outputs["Color"], blender.node_input(node, "Normal"))
-    reliefs, (warning,) = exported(material)
-    assert reliefs == ()
-    assert "Checker Texture" in warning
+    (relief,), warnings = exported(material)
+    assert warnings == ()
+    assert type(relief) is CheckerTexture
 
 
 def test_shaders_with_different_normals_are_named():

@@ -213,12 +213,12 @@ def test_two_mappings_follow_each_other():
     assert tuple(np.array(matrix) @ (1, 1, 1, 1)) == pytest.approx((3, 2, 2, 1))
 
 
-def test_coordinates_that_are_not_supported_are_named():
+def test_coordinates_may_be_those_of_the_camera():
     material, tree, node = textured("Checker")
-    mapped(tree, node, source="Window")
-    o, (warning,) = exported(material)
-    assert "Window" in warning
-    assert o.materials[0].lobes[0].reflectance.coordinates.source == "generated"
+    mapped(tree, node, source="Camera")
+    o, warnings = exported(material)
+    assert warnings == ()
+    assert o.materials[0].lobes[0].reflectance.coordinates.source == "camera"
 
 
 def test_layers_of_coordinates_come_as_they_are_asked_for():

@@ -72,6 +72,7 @@ RANGES = {
     "IOR": (1.05, 2.5),
     "Randomness": (0.0, 1.0),
     "Smoothness": (0.05, 1.0),
+    "Filter Width": (0.05, 1.0),
 }
 COARSE = {
     "ShaderNodeTexBrick": {"Scale": (0.5, 1.5), "Brick Width": (0.2, 1.0), "Row Height": (0.2, 1.0)},

@@ -1,7 +1,6 @@
 """What must agree with Cycles, and what does not, and why."""
 
 NODES = {
-    "ShaderNodeTexCoord": ("only Generated, UV and Object are read", lambda case: case.output not in ("Generated", "UV", "Object")),
     "ShaderNodeMapping": ("only constant locations, rotations and scales are read", None),
 }
 """{node type: (reason, condition (case) or None for all cases)}."""
