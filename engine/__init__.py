@@ -54,6 +54,8 @@ from .textures.noise import NoiseTexture
 from .textures.normal_dot import NormalDot
 from .textures.normal_map import NormalMap
 from .textures.object_value import ObjectValue
+from .textures.preetham import PreethamSky
+from .textures.sky import SkyTexture
 from .textures.tangent import Tangent
 from .textures.voronoi import VoronoiTexture
 from .textures.wave import WaveTexture
@@ -115,11 +117,13 @@ __all__ = [
     "PhongLecture",
     "PhongTransmission",
     "PointLight",
+    "PreethamSky",
     "Progress",
     "Requirements",
     "Scene",
     "SceneError",
     "Settings",
+    "SkyTexture",
     "SpotLight",
     "SunLight",
     "Tangent",

@@ -33,7 +33,7 @@ def _scaled(value, factor):
         return BLACK
     if (factor == 1).all():
         return as_texture(value)
-    terms = _terms(value)
+    terms = terms_of(value)
     return LinearTexture(terms.textures, tuple(times(f, factor) for f in terms.factors), times(terms.offset, factor))
 
 
@@ -44,7 +44,7 @@ def added(a, b):
     for one, other in ((a, b), (b, a)):
         if not varies(one) and not np.any(one):
             return as_texture(other)
-    a, b = _terms(a), _terms(b)
+    a, b = terms_of(a), terms_of(b)
     return LinearTexture(a.textures + b.textures, a.factors + b.factors, added(a.offset, b.offset))
 
 
@@ -73,7 +73,8 @@ def luminance(colour):
     return float(np.dot(LUMINANCE, colour))
 
 
-def _terms(value):
+def terms_of(value):
+    """A value as a `LinearTexture` that is a sum of textures."""
     if not varies(value):
         return LinearTexture(offset=_constant(np.broadcast_to(np.asarray(value, np.float64), 3)))
     is_sum = isinstance(value, LinearTexture) and not value.is_clipped

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...engine import Coordinates, EnvironmentMap, EnvironmentTexture, LinearTexture
-from .colours import varies
+from ...engine import Coordinates, EnvironmentMap, EnvironmentTexture
+from .colours import terms_of, varies
 from .images import linear_pixels
 
 _DIRECTION = Coordinates(source="generated")
@@ -31,7 +31,7 @@ def as_picture(radiance):
 
     A picture is chosen by texel, which finds more light than the samples of a texture.
     """
-    terms = radiance if type(radiance) is LinearTexture and not radiance.is_clipped else LinearTexture((radiance,), (1.0,))
+    terms = terms_of(radiance)
     if len(terms.textures) != 1 or varies(terms.factors[0]) or varies(terms.offset):
         return radiance, None
     (texture,), (factor,) = terms.textures, terms.factors

@@ -16,7 +16,7 @@ LINE_F, LINE_D, LINE_C = 486.13, 587.56, 656.27
 """Fraunhofer's lines [nm]: blue and red of hydrogen, and between them helium's, where indices of refraction are given."""
 _BINS = 60
 _WIDTH = (HIGHEST - LOWEST) / _BINS
-_FROM_XYZ = np.array([[3.2404542, -1.5371385, -0.4985314], [-0.9692660, 1.8760108, 0.0415560], [0.0556434, -0.2040259, 1.0572252]])
+FROM_XYZ = np.array([[3.2404542, -1.5371385, -0.4985314], [-0.9692660, 1.8760108, 0.0415560], [0.0556434, -0.2040259, 1.0572252]])
 """IEC 61966-2-1: linear Rec. 709 from XYZ."""
 
 
@@ -46,7 +46,7 @@ def _matching(wavelength):
 def _shares():
     """The share of each channel that belongs to each bin, (3, _BINS), and the bins' middles [nm]."""
     middles = LOWEST + _WIDTH * (np.arange(_BINS) + 0.5)
-    shares = np.maximum(_FROM_XYZ @ _matching(middles), 0)
+    shares = np.maximum(FROM_XYZ @ _matching(middles), 0)
     return shares / shares.sum(axis=1, keepdims=True), middles
 
 

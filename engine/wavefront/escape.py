@@ -4,6 +4,9 @@ import numpy as np
 
 from .mis import power_heuristic
 
+_FARTHEST = np.finfo(np.float32).max
+"""Where suns are."""
+
 
 def add_background(plan, rays, hits, film):
     """Rays that met nothing see the world. It is found by scattered rays alone, so it needs no weight."""
@@ -41,16 +44,16 @@ def add_light_hits_beyond(plan, rays, hits, film):
 
 def light_hits(plan, rays, hits):
     """For each light object that rays meet: which rays (M,), how far away (M,), and the radiance (3, M) that counts."""
-    return _lamps(plan, rays, np.float32(0), hits.t)
+    return _lamps(plan, rays, np.float32(0), hits)
 
 
 def light_hits_beyond(plan, rays, hits):
     """The same beyond the surface that rays have passed last: `rays.carried.start` (N,) is how far away it is."""
-    return _lamps(plan, rays, rays.carried.start, hits.t)
+    return _lamps(plan, rays, rays.carried.start, hits)
 
 
-def _lamps(plan, rays, near, far):
-    """The lamps at a distance from near on to below far, (N,) each or a number."""
+def _lamps(plan, rays, near, hits):
+    """The lamps at a distance from near on, (N,) or a number, to before the hits; a sun is beyond the end of any clip range."""
     lights = plan.world.lights
     if rays.depth:
         search, lanes = lights.hittable, lights.looks_for_lamps(rays.pdf)
@@ -58,7 +61,8 @@ def _lamps(plan, rays, near, far):
         search, lanes = lights.visible, None
     for lamp, asked in search.along(rays.o, rays.d, lanes):
         t, L, pdf = lamp.light.hit(lamp.k, _of(asked, rays.o), _of(asked, rays.d))
-        met = np.nonzero((t < _of(asked, far)) & (t >= _of(asked, near)))[0]
+        is_before = (t < _of(asked, hits.t)) | ((t == _FARTHEST) & (_of(asked, hits.prim) < 0))
+        met = np.nonzero(is_before & (t >= _of(asked, near)))[0]
         if not met.size:
             continue
         lanes_met = met if asked is None else asked.take(met)
