@@ -57,6 +57,7 @@ from .textures.object_value import ObjectValue
 from .textures.preetham import PreethamSky
 from .textures.sky import SkyTexture
 from .textures.tangent import Tangent
+from .textures.vector_transform import VectorTransform
 from .textures.voronoi import VoronoiTexture
 from .textures.wave import WaveTexture
 from .textures.white_noise import WhiteNoiseTexture
@@ -129,6 +130,7 @@ __all__ = [
     "Tangent",
     "Tile",
     "Transparent",
+    "VectorTransform",
     "VoronoiTexture",
     "WaveTexture",
     "WhiteNoiseTexture",

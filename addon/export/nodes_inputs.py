@@ -16,6 +16,7 @@ from ...engine import (
     NormalMap,
     ObjectValue,
     Tangent,
+    VectorTransform,
     Wireframe,
 )
 from .attributes import DEFAULT_COLOUR, ISLAND, POINTINESS
@@ -128,6 +129,11 @@ def _normal(reader, node, output):
     return direction if output == "Normal" else NormalDot(reader.value(node, "Normal"), direction)
 
 
+def _vector_transform(reader, node, output):
+    spaces = node.convert_from.lower(), node.convert_to.lower()
+    return VectorTransform(reader.value(node, "Vector", (0.5, 0.5, 0.5)), node.vector_type.lower(), *spaces)
+
+
 def _wireframe(reader, node, output):
     return Wireframe(reader.value(node, "Size", 0.01), node.use_pixel_size)
 
@@ -178,6 +184,7 @@ TABLE = {
     "BEVEL": _bevel,
     "TANGENT": _tangent,
     "NORMAL": _normal,
+    "VECT_TRANSFORM": _vector_transform,
     "WIREFRAME": _wireframe,
     "HAIR_INFO": _absent,
     "POINT_INFO": _absent,

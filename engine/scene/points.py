@@ -62,11 +62,15 @@ _COMPONENTS = {"number": 1, "alpha": 1, "colour alpha": 1, "value": 4, "tangent"
 """How many numbers attributes have, but for those with three."""
 
 
+_IDENTITY = np.eye(4, dtype=np.float32)[:3].reshape(12, 1)
+
+
 class OnPlane(Points):
     """Points p (3, N) for which there is no scene: all attributes are p, and a plane is seen there by rays from all around its front."""
 
     edges = tuple(np.eye(3, dtype=np.float32)[:2, :, None])
     frame = SimpleNamespace(scale=1.0)
+    camera = SimpleNamespace(from_world=_IDENTITY, to_world=_IDENTITY)
     pixel_width = np.float32(_PROBES**-0.5)
 
     def __init__(self, p, across=None):
@@ -81,7 +85,7 @@ class OnPlane(Points):
     def attribute(self, key):
         """See `world.attributes.Attribute.at`; objects stand at the origin."""
         if key[0] in ("world_from_object", "object_from_world"):
-            return np.eye(4, dtype=np.float32)[:3].reshape(12, 1), 0, 0
+            return _IDENTITY, 0, 0
         rows = [0, 1, 2, 0][: _COMPONENTS.get(key[0], 3)]
         x, y = np.eye(3, dtype=np.float32)[:2, :, None]
         return self.p[rows], x[rows], y[rows]

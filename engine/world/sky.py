@@ -32,7 +32,11 @@ class Directions(OnPlane):
     def attribute(self, key):
         """All places of a direction are the direction; there is no mesh and no object, whose attributes are 0."""
         found, *along = super().attribute(key)
-        return (self.d if key[0] in _PLACES else np.zeros_like(found)), *along
+        if key[0] in _PLACES:
+            found = self.d
+        elif not key[0].endswith(("_object", "_world")):
+            found = np.zeros_like(found)
+        return found, *along
 
     @property
     def surface(self):

@@ -72,6 +72,11 @@ class TexturePoints(Points):
         return self._view.frame
 
     @property
+    def camera(self):
+        """The `CameraSpace`."""
+        return self._view.camera
+
+    @property
     def surface(self):
         """The `Surface`: its shading normals are as yet without relief."""
         return self.once("surface", lambda: self._view.surface(self.prim, self.u, self.v))
@@ -84,7 +89,7 @@ class TexturePoints(Points):
     @property
     def in_window(self):
         """Where in the picture the camera sees the points, (3, N), see `views.CameraSpace.window`."""
-        return self._view.camera.window(self.surface.p)
+        return self.camera.window(self.surface.p)
 
     @property
     def pixel_width(self):
@@ -107,8 +112,7 @@ def _position(at):
 
 
 def _camera(at):
-    camera = at._view.camera
-    return camera.points(at.surface.p), *(camera.vectors(e) for e in at.edges)
+    return at.camera.points(at.surface.p), *(at.camera.vectors(e) for e in at.edges)
 
 
 _PLACES = {("position", ""): _position, ("camera", ""): _camera}

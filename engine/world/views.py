@@ -12,11 +12,14 @@ from .interaction import Surface, smooth_normals
 class CameraSpace:
     """The frame of the camera at the middle of the shutter: it looks along +z, x to the right, y up [m].
 
-    rows  (3, 4) float32, camera_from_render
+    rows                 (3, 4) float32, camera_from_render
+    from_world, to_world (12, 1) float32: the rows of camera_from_world and of its inverse
     """
 
     camera: object
     rows: np.ndarray
+    from_world: np.ndarray
+    to_world: np.ndarray
 
     @classmethod
     def of(cls, camera, frame):
@@ -24,8 +27,12 @@ class CameraSpace:
         world_from_render = np.eye(4)
         world_from_render[:3, :3] /= frame.scale
         world_from_render[:3, 3] = frame.origin
-        rows = np.linalg.inv(np.asarray(camera.world_from_camera, np.float64))[:3] @ world_from_render
-        return cls(camera, (rows * np.array([[1], [1], [-1]])).astype(np.float32))
+        # Blender's cameras look along -z.
+        world_from_camera = np.asarray(camera.world_from_camera, np.float64) @ np.diag((1, 1, -1, 1))
+        camera_from_world = np.linalg.inv(world_from_camera)
+        rows = (camera_from_world @ world_from_render)[:3].astype(np.float32)
+        matrices = (m[:3].reshape(12, 1).astype(np.float32) for m in (camera_from_world, world_from_camera))
+        return cls(camera, rows, *matrices)
 
     def points(self, p):
         """Points p (3, N) of render space in the frame of the camera."""

@@ -30,6 +30,7 @@ from glanz.engine import (
     ObjectValue,
     SceneError,
     Tangent,
+    VectorTransform,
     VoronoiTexture,
     WaveTexture,
     WhiteNoiseTexture,
@@ -98,6 +99,11 @@ EXAMPLES = {
     "fresnel": [Fresnel(), Fresnel(NoiseTexture(), Geometry("incoming"))],
     "layer weight": [LayerWeight(b, output=output) for b in (0.0, 0.3, NoiseTexture(), 1.0) for output in ("facing", "fresnel")],
     "tangent": [Tangent(direction) for direction in ("x", "y", "z", "uv")],
+    "vector transform": [
+        VectorTransform(NoiseTexture(is_coloured=True), kind, source, target)
+        for kind in ("point", "vector", "normal")
+        for source, target in (("world", "object"), ("object", "camera"), ("camera", "world"), ("object", "object"))
+    ],
     "wireframe": [Wireframe(0.5), Wireframe(1.0, True)],
     "normal map": [
         NormalMap(NoiseTexture(is_coloured=True), 0.5, space=space)
@@ -280,6 +286,8 @@ def test_wide_footprints_catch_a_checker_that_ignores_them(monkeypatch):
         (LayerWeight(output="up"), "up"),
         (LightPath("red"), "red"),
         (Tangent("w"), "w"),
+        (VectorTransform(kind="colour"), "colour"),
+        (VectorTransform(target="screen"), "screen"),
         (NormalMap(space="screen"), "screen"),
         (BumpMap(width=0.0), "width"),
     ],

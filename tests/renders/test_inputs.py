@@ -28,6 +28,7 @@ from glanz.engine import (
     Requirements,
     Tangent,
     Transparent,
+    VectorTransform,
     Wireframe,
     World,
 )
@@ -73,7 +74,8 @@ def seen(texture, camera=None, mesh=None, matrix=MATRIX):
 
 def shares(values, expected, is_seen, tolerance=1e-4):
     """How many of the pixels that see the box show what is expected; edges may fall to either side."""
-    return (np.abs(values - expected).max(axis=0) <= tolerance)[is_seen].mean()
+    # What is below -1 is darker than black.
+    return (np.abs(values - np.maximum(expected, -1)).max(axis=0) <= tolerance)[is_seen].mean()
 
 
 OUTPUTS = {
@@ -103,6 +105,28 @@ def test_points_catch_a_camera_that_looks_the_other_way(monkeypatch):
     monkeypatch.setattr("glanz.engine.world.views.CameraSpace.points", lambda self, p: -self.vectors(p))
     with pytest.raises(AssertionError):
         test_points_say_where_they_are_and_how_they_face("camera")
+
+
+TO_OBJECT = np.linalg.inv(MATRIX)
+SPACES = {
+    ("point", "world", "object"): lambda p, n: np.einsum("ij,jhw->ihw", TO_OBJECT[:3, :3], p) + TO_OBJECT[:3, 3, None, None],
+    ("point", "world", "camera"): lambda p, n: np.stack((p[0], p[1], 5 - p[2])),
+    ("vector", "object", "world"): lambda p, n: np.einsum("ij,jhw->ihw", MATRIX[:3, :3], p),
+    ("vector", "camera", "world"): lambda p, n: np.stack((p[0], p[1], -p[2])),
+}
+
+
+@pytest.mark.parametrize("kind", SPACES, ids=" ".join)
+def test_vectors_are_carried_from_space_to_space(kind):
+    values, p, n, is_seen = seen(VectorTransform(Coordinates(source="position"), *kind))
+    assert shares(values, SPACES[kind](p, n), is_seen) >= 0.97
+
+
+def test_normals_stay_at_right_angles_to_what_is_stretched():
+    """The normal of the plane x + y + z = 0, after space is stretched by (1, 2, 4), is along (1, 1/2, 1/4)."""
+    scene = t.facing(h.quad(), glowing(VectorTransform((1.0, 1.0, 1.0), "normal", "object", "world")))
+    scene = h.replaced(scene, objects=[h.replaced(scene.objects[0], world_from_object=np.diag((1.0, 2.0, 4.0, 1.0)))])
+    assert h.pixels(scene, SMALL)[:, 8, 8] == pytest.approx(np.array((4, 2, 1)) / np.sqrt(21), abs=1e-6)
 
 
 def test_the_window_of_a_perspective_camera_is_its_picture():
