@@ -124,7 +124,9 @@ def unblocked_through(plan, rays, o, d, limit, candidate):
     share = np.zeros_like(o)
     clear = np.nonzero(candidate & ~is_blocked)[0]
     share[:, clear] = plan.left(plan, rays.landed(clear), limit.take(clear))
-    share[:, shut] = _transmittance(plan, rays.landed(shut), o.take(shut, axis=1), d.take(shut, axis=1), limit.take(shut))
+    towards = d.take(shut, axis=1)
+    shadow = dataclasses.replace(rays.landed(shut), d=towards)
+    share[:, shut] = _transmittance(plan, shadow, o.take(shut, axis=1), towards, limit.take(shut))
     lanes = np.nonzero(share.any(axis=0))[0]
     return lanes, share.take(lanes, axis=1)
 

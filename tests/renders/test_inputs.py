@@ -26,6 +26,7 @@ from glanz.engine import (
     OrthographicCamera,
     PerspectiveCamera,
     Requirements,
+    SunLight,
     Tangent,
     Transparent,
     VectorTransform,
@@ -198,6 +199,18 @@ def test_lights_that_only_the_camera_sees_light_nothing():
     assert (room(lid, floor=DIFFUSE) == 0).all()
     quad = h.quad((0, 0, 0), (2, 0, 0), (0, 2, 0))
     assert h.pixels(t.facing(quad, glowing(lid)), SMALL) == pytest.approx(5)
+
+
+@pytest.mark.parametrize("faces_up", [True, False])
+def test_shadow_rays_see_the_side_that_they_meet(faces_up):
+    """A sheet is there for who sees its back: shadow rays from the floor meet it from below, the camera from above."""
+    sheet = h.quad((0, 0, 1), (9, 0, 0), (0, 9, 0) if faces_up else (0, -9, 0))
+    material = Material(name="sheet", lobes=(Lambert((1.0,) * 3),), alpha=Geometry("backfacing"))
+    scene = t.facing(h.quad((0, 0, 0), (9, 0, 0), (0, 9, 0)), DIFFUSE, lights=[SunLight(irradiance=(1.0, 1.0, 1.0))])
+    scene = h.replaced(scene, objects=(*scene.objects, h.thing(sheet, material)))
+    found = h.pixels(scene, h.replaced(SMALL, max_depth=0)).mean()
+    # The floor in the shadow of its back, or the back itself, lit.
+    assert found == pytest.approx(0 if faces_up else 1 / np.pi, rel=1e-4, abs=1e-6)
 
 
 def test_a_world_that_only_the_camera_sees_lights_nothing():
