@@ -29,7 +29,8 @@ def _texture_coordinates(reader, node, output):
     if node.from_instancer and output in ("Generated", "UV"):
         return ObjectValue(f"instancer {output.lower()}")
     if output == "Object" and node.object is not None:
-        return Coordinates(source="position", matrix=np.linalg.inv(np.array(node.object.matrix_world, np.float64)))
+        # Of what is flattened, the inverse that leads back into its plane.
+        return Coordinates(source="position", matrix=np.linalg.pinv(np.array(node.object.matrix_world, np.float64)))
     if output == "Normal":
         return Geometry("object normal")
     if output == "Reflection":
@@ -53,16 +54,16 @@ def _geometry(reader, node, output):
 
 def _object_info(reader, node, output):
     if output == "Material Index":
-        return float(_material_of(reader, node).pass_index)
+        return float(getattr(_material_of(reader, node), "pass_index", 0))
     name = {"Location": "location", "Object Index": "index", "Random": "random"}.get(output, "colour")
     kind = {"Location": "colour", "Color": "colour", "Alpha": "alpha"}.get(output, "number")
     return ObjectValue(name, kind)
 
 
 def _material_of(reader, node):
-    """The material that the nodes of `reader` are in, which trees do not tell."""
+    """The material that the nodes of `reader` are in, which trees do not tell; None where they are in something else."""
     tree = (reader.groups[0] if reader.groups else node).id_data.original
-    return next(material for material in bpy.data.materials if material.node_tree == tree)
+    return next((material for material in bpy.data.materials if material.node_tree == tree), None)
 
 
 def _particle_info(reader, node, output):

@@ -70,8 +70,10 @@ class LampView:
         triangles, k = self._glow.triangles, self._k
         sign = np.copysign(np.float32(1), -dot(k.normal, self.d))
         n, p = k.normal * sign, k.v0 + u * k.e1 + v * k.e2
-        is_still = triangles.smooth.size and int(prim.max(initial=0)) < triangles.first_moving
-        ns = smooth_normals(triangles, prim, u, v, n, sign) if is_still else n
+        ns = n
+        if triangles.smooth.size:
+            # Those of triangles that move are in frames of their own.
+            ns = np.where(prim < triangles.first_moving, smooth_normals(triangles, prim, u, v, n, sign), n)
         return Surface(p, -self.d, n, ns, p, sign > 0, prim, triangles.material.take(prim), u, v, self._distance)
 
     def edges(self, prim):

@@ -286,6 +286,26 @@ def test_leaving_out_and_batches_change_no_bit_of_what_textures_ask(monkeypatch)
     assert h.same_bits(h.pixels(scene, settings), reference)
 
 
+def test_lamps_that_are_sampled_glow_as_those_that_are_met():
+    """A dull floor under a smooth lamp that glows by its facing: by shadow rays the same as by scattered rays alone."""
+    lamp = h.icosphere(2, 0.5, (0, 0, 1), smooth=True)
+    glow = Material(name="glow", emission=LinearTexture((LayerWeight(0.7), Geometry("object normal")), (3.0, 0.5), (0.6, 0.6, 0.6)))
+    objects = [h.thing(lamp, glow), h.thing(h.quad((0, 0, 0), (0.5, 0, 0), (0, 0.5, 0)), h.lambert(0.8))]
+    camera = PerspectiveCamera.look_at((1.5, 0, 0.4), (0, 0, 0), fov=0.2)
+    means = []
+    for integrator in ("path", "path_blind"):
+        found = h.pixels(h.scene(objects, camera=camera), h.settings(width=8, height=8, samples=400, max_depth=1, integrator=integrator))
+        means.append(found.reshape(3, -1).mean(axis=1))
+    np.testing.assert_allclose(*means, rtol=0.03)
+
+
+def test_the_glow_of_lamps_catches_normals_that_are_not_theirs(monkeypatch):
+    up = np.float32([[0], [0], [1]])
+    monkeypatch.setattr("glanz.engine.world.views.smooth_normals", lambda triangles, prim, u, v, n, sign: 0 * n + up)
+    with pytest.raises(AssertionError):
+        test_lamps_that_are_sampled_glow_as_those_that_are_met()
+
+
 def test_paths_carry_their_past_only_where_a_texture_asks():
     asked = Requirements.of(room_scene(LightPath("diffuse")), SMALL).as_dict()
     assert asked["light paths"] == ["glowing"]
