@@ -17,7 +17,11 @@ class Points:
 
     Who inherits offers `attribute`(key), see `world.attributes.Attribute.at`; `across`, None or the half-axes of footprints
     in units of what attributes change along; `beside`(axis), the points moved by half-axis 0 or 1; and what `OnPlane` shows.
+    By itself it is one point without a footprint, where textures of constants are looked up.
     """
+
+    count = 1
+    across = None
 
     def __init__(self):
         self._known = {}
