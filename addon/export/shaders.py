@@ -11,6 +11,8 @@ from .relief import relief_of
 from .values import Reader
 
 _WHITE = (1.0, 1.0, 1.0)
+_IORS = (0.001, 1000.0)
+"""What boundaries may have, the engine says."""
 
 
 def surface_of(output, owner, findings, bitmaps=None):
@@ -64,7 +66,15 @@ def _glossy(reader, node):
 def _glass(reader, node):
     if reader.is_linked(node, "Roughness") or reader.number(node, "Roughness") > 0:
         reader.note("Roughness of Glass BSDF is left out, it is rendered smooth")
-    return _bent(reader, node, closure.glass(reader.value(node, "Color"), reader.number(node, "IOR", 1.5)))
+    return _bent(reader, node, closure.glass(reader.value(node, "Color"), _ior(reader, node)))
+
+
+def _ior(reader, node):
+    ior = reader.number(node, "IOR", 1.5)
+    allowed = min(max(ior, _IORS[0]), _IORS[1])
+    if allowed != ior:
+        reader.note("an IOR is beyond 0.001 to 1000 and is cut off")
+    return allowed
 
 
 def _emission(reader, node):
@@ -110,7 +120,7 @@ def _principled(reader, node):
         base,
         reader.number(node, "Metallic"),
         reader.number(node, "Roughness"),
-        reader.number(node, "IOR", 1.5),
+        _ior(reader, node),
         reader.number(node, "Specular IOR Level", 0.5),
         reader.colour(node, "Specular Tint", _WHITE),
         transmission,
