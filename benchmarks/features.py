@@ -2,12 +2,14 @@
 
 A feature changes what paths do (mirrors send them farther, glass through more surfaces), so this is its price in a
 scene that uses it, not the time of its code. Scenes that do not use it run none of it (tests/renders/test_costs.py).
+"Pictures" has another counterpart: a Principled material with three of them against the same with constants.
 """
 
 import dataclasses
 import time
 from statistics import median
 
+import bpy
 import numpy as np
 
 from glanz.addon.capture import capture
@@ -35,6 +37,8 @@ from glanz.engine import (
 from . import blender
 
 SIDE, SAMPLES, ROUNDS = 256, 8, 5
+WORN = ("Large sphere", "Small sphere", "Tall box")
+"""The objects that wear what is to be measured."""
 GENERATED = Coordinates(source="generated", matrix=np.diag((4.0, 4.0, 4.0, 1.0)))
 
 
@@ -42,15 +46,41 @@ def main():
     blender.open_cornell_box(SAMPLES, SIDE, SIDE)
     with blender.quiet():
         scene, settings, _ = capture()
-    variants = {"plain": (scene, settings), **features(scene, settings)}
+        principled = {name: (capture()[0], settings) for name in ("principled", "pictures") if wear(name == "pictures")}
+    variants = {"plain": (scene, settings), **features(scene, settings), **principled}
     seconds = {name: [] for name in variants}
     for _ in range(ROUNDS):
         for name, (changed, how) in variants.items():
             start = time.process_time()
             render_image(changed, how)
             seconds[name].append(time.process_time() - start)
+    against = {"pictures": seconds["principled"]}
     plain = seconds.pop("plain")
-    blender.finish({name: median(a / b for a, b in zip(times, plain)) for name, times in seconds.items()})
+    blender.finish({name: median(a / b for a, b in zip(times, against.get(name, plain))) for name, times in seconds.items()})
+
+
+def wear(has_pictures):
+    """Dress the objects in a Principled material: with constants, or with pictures as its base colour, roughness and normal."""
+    material = bpy.data.materials.new("Principled")
+    tree = material.node_tree
+    if tree is None:
+        material.use_nodes = True
+        tree = material.node_tree
+    shader = next(node for node in tree.nodes if node.type == "BSDF_PRINCIPLED")
+    if has_pictures:
+        bend = tree.nodes.new("ShaderNodeNormalMap")
+        tree.links.new(bend.outputs["Normal"], shader.inputs["Normal"])
+        for socket in (shader.inputs["Base Color"], shader.inputs["Roughness"], bend.inputs["Color"]):
+            picture = tree.nodes.new("ShaderNodeTexImage")
+            picture.image = bpy.data.images.new("Picture", 1024, 1024)
+            picture.image.pixels.foreach_set(np.random.default_rng(1).random(4 * 1024 * 1024, np.float32))
+            tree.links.new(picture.outputs["Color"], socket)
+    for name in WORN:
+        mesh = bpy.data.objects[name].data
+        mesh.uv_layers.active or mesh.uv_layers.new(name="UVMap")
+        mesh.materials.clear()
+        mesh.materials.append(material)
+    return True
 
 
 def features(scene, settings):
@@ -59,8 +89,7 @@ def features(scene, settings):
 
     def worn(*lobes, **others):
         material = Material(name="measured", lobes=lobes, **others)
-        names = ("Large sphere", "Small sphere", "Tall box")
-        return replace(scene, objects=tuple(replace(o, materials=(material,)) if o.name in names else o for o in scene.objects))
+        return replace(scene, objects=tuple(replace(o, materials=(material,)) if o.name in WORN else o for o in scene.objects))
 
     rng = np.random.default_rng(1)
     bitmap = Bitmap(name="bitmap", pixels=rng.random((3, 256, 256), np.float32))

@@ -54,6 +54,8 @@ ROWS = (
             ("sampler_random", "random"),
         )
     ),
+    ("features", "principled", "Cornell box with / without: a Principled material", "", None),
+    ("features", "pictures", "a Principled material with three pictures / with constants", "", 2.0),
     ("memory", "import_bpy", "resident after `import bpy`", "MB", None),
     ("memory", "peak", "peak, Cornell box 1920x1080 with 3 passes", "MB", None),
     ("memory", "over", "over what `import bpy` takes", "MB", 1000),
