@@ -5,6 +5,11 @@ import numpy as np
 from ..constants import ONE_MINUS_EPS32
 
 
+def as_vector(a):
+    """A number (1, N) as three equal ones, (3, N); a vector (3, N) as it is."""
+    return np.broadcast_to(a, (3, a.shape[1]))
+
+
 def dot(a, b):
     """Scalar product, (N,)."""
     result = a[0] * b[0]
