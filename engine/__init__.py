@@ -33,33 +33,51 @@ from .requirements import Requirements
 from .scene import Bitmap, Coordinates, EnvironmentMap, Lens, Material, Medium, Mesh, MeshAttribute, Object, Scene, Settings, World
 from .scene.points import average_of
 from .scene.textured import folded, is_texture, textures_of
+from .textures.arithmetic import Math
 from .textures.attribute import Attribute
 from .textures.average import Average
+from .textures.blackbody import Blackbody
 from .textures.brick import BrickTexture
+from .textures.brightness_contrast import BrightnessContrast
 from .textures.bump_map import BumpMap
 from .textures.camera_data import CameraData
 from .textures.checker import CheckerTexture
+from .textures.clamp import Clamp
+from .textures.colour_ramp import ColourRamp
+from .textures.combine import Combine
+from .textures.curves import Curves
 from .textures.environment import EnvironmentTexture
 from .textures.fresnel import Fresnel
 from .textures.gabor import GaborTexture
+from .textures.gamma import Gamma
 from .textures.geometry import Geometry
 from .textures.gradient import GradientTexture
+from .textures.hue_saturation import HueSaturation
 from .textures.image import ImageTexture
+from .textures.invert import Invert
 from .textures.layer_weight import LayerWeight
 from .textures.light_path import LightPath
 from .textures.linear import LinearTexture
 from .textures.luminance import Luminance
 from .textures.magic import MagicTexture
+from .textures.map_range import MapRange
+from .textures.mapping import Mapping
+from .textures.mix import Mix
+from .textures.mix_colour import MixColour
 from .textures.noise import NoiseTexture
 from .textures.normal_dot import NormalDot
 from .textures.normal_map import NormalMap
 from .textures.object_value import ObjectValue
 from .textures.preetham import PreethamSky
+from .textures.separate import Separate
 from .textures.sky import SkyTexture
 from .textures.tangent import Tangent
+from .textures.vector_arithmetic import VectorMath
+from .textures.vector_rotate import VectorRotate
 from .textures.vector_transform import VectorTransform
 from .textures.voronoi import VoronoiTexture
 from .textures.wave import WaveTexture
+from .textures.wavelength import Wavelength
 from .textures.white_noise import WhiteNoiseTexture
 from .textures.wireframe import Wireframe
 
@@ -75,24 +93,33 @@ __all__ = [
     "Attribute",
     "Average",
     "Bitmap",
+    "Blackbody",
     "BlinnPhong",
     "BrickTexture",
+    "BrightnessContrast",
     "BumpMap",
     "CameraData",
     "CheckerTexture",
+    "Clamp",
+    "ColourRamp",
+    "Combine",
     "Coordinates",
     "CosineSpotLight",
+    "Curves",
     "Dielectric",
     "EnvironmentMap",
     "EnvironmentTexture",
     "FileError",
     "Fresnel",
     "GaborTexture",
+    "Gamma",
     "Geometry",
     "GlanzError",
     "GradientTexture",
+    "HueSaturation",
     "Image",
     "ImageTexture",
+    "Invert",
     "Lambert",
     "LambertTransmission",
     "LayerWeight",
@@ -101,11 +128,16 @@ __all__ = [
     "LinearTexture",
     "Luminance",
     "MagicTexture",
+    "MapRange",
+    "Mapping",
     "Material",
+    "Math",
     "Medium",
     "Mesh",
     "MeshAttribute",
     "Mirror",
+    "Mix",
+    "MixColour",
     "NoiseTexture",
     "NormalDot",
     "NormalMap",
@@ -123,6 +155,7 @@ __all__ = [
     "Requirements",
     "Scene",
     "SceneError",
+    "Separate",
     "Settings",
     "SkyTexture",
     "SpotLight",
@@ -130,9 +163,12 @@ __all__ = [
     "Tangent",
     "Tile",
     "Transparent",
+    "VectorMath",
+    "VectorRotate",
     "VectorTransform",
     "VoronoiTexture",
     "WaveTexture",
+    "Wavelength",
     "WhiteNoiseTexture",
     "Wireframe",
     "World",

@@ -142,6 +142,9 @@ def _check_field(cls, field, value):
     elif field.type is object and cls in TEXTURES.values():
         fits = type(value) in (*TEXTURES.values(), Coordinates) or _is_number(value) or _is_alike((0.0, 0.0, 0.0), value)
         fits = fits or value is field.default is None
+    elif field.type is np.ndarray and cls in TEXTURES.values():
+        # Tables of any length; `check` looks into them.
+        fits = isinstance(value, np.ndarray)
     elif cls is LinearTexture and field.name == "factors":
         fits = isinstance(value, tuple) and all(type(f) in TEXTURES.values() or _is_number(f) or _is_alike((0.0,) * 3, f) for f in value)
     elif type(value) in TEXTURES.values():

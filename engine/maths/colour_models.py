@@ -39,7 +39,8 @@ def hsl_from_rgb(colour):
     top, bottom = colour.max(axis=0), colour.min(axis=0)
     span, total = top - bottom, top + bottom
     lightness = np.minimum(total * np.float32(0.5), 1)
-    saturation = span / np.where(lightness > 0.5, 2 - top - bottom, total)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        saturation = span / np.where(lightness > 0.5, 2 - top - bottom, total)
     red, green, blue = colour
     hue = np.where(
         red == top,
