@@ -21,6 +21,11 @@ def input_by_identifier(node, identifier):
     return next((socket for socket in node.inputs if socket.identifier == identifier), None)
 
 
+def words(mode):
+    """Blender's identifier of a mode as the engine's name: in lower case, with blanks."""
+    return mode.lower().replace("_", " ")
+
+
 class Links:
     """Follows the links of one node tree and of the groups in it, and notes what is odd about them.
 
