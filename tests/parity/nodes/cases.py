@@ -141,7 +141,7 @@ def cases(kind):
     node = blender.new_nodes(scratch).nodes.new(kind)
     found = []
     for properties in modes(node):
-        _set(node, properties)
+        set_mode(node, properties)
         found += [Case(kind, s.identifier, seed, properties) for s in node.outputs if s.enabled and not s.is_unavailable for seed in SEEDS]
     bpy.data.materials.remove(scratch)
     return found
@@ -159,10 +159,10 @@ def modes(node):
         if name not in pairs:
             found += [{name: value} for value in values if value != getattr(node, name)]
     # What the node refuses, or shows no output for, is no mode.
-    return [properties for properties in found if _set(node, properties)]
+    return [properties for properties in found if set_mode(node, properties)]
 
 
-def _set(node, properties):
+def set_mode(node, properties):
     inherited = bpy.types.ShaderNode.bl_rna.properties
     for name, p in node.bl_rna.properties.items():
         if p.type in ("ENUM", "BOOLEAN") and name not in inherited and not p.is_readonly and not getattr(p, "is_array", False):
@@ -182,8 +182,8 @@ def build(tree, case):
     """The output of the node of a case in `tree`, with its inputs: vectors vary over the plane, others do or are constants."""
     rng = np.random.default_rng([case.seed, len(case.kind), *case.mode.encode()])
     node = tree.nodes.new(case.kind)
-    _set(node, case.properties)
-    _shape(node, rng)
+    set_mode(node, case.properties)
+    shape(node, rng)
     for i, socket in enumerate(s for s in node.inputs if s.enabled and not s.is_unavailable):
         if socket.type == "VECTOR" and socket.identifier in ("Normal", "Tangent"):
             continue
@@ -236,7 +236,7 @@ def _two(tree, rng, kind):
     return blender.add_node(tree, "ShaderNodeTexChecker", **colours).outputs["Fac" if kind == "VALUE" else "Color"]
 
 
-def _shape(node, rng):
+def shape(node, rng):
     """Curves and ramps that are not straight."""
     if hasattr(node, "color_ramp"):
         for place in (0.3, 0.62):

@@ -14,10 +14,10 @@ SIDE = 20
 NEAR = 1 / 255
 
 
-def shares(cases, path, change=None):
+def shares(cases, path, change=None, build=build):
     """The share of pixels of each case in which both engines agree, to 1/255 of what is seen, or of 1 where that is less.
 
-    `change`(picture) may spoil Glanz's picture first, for a test of the test.
+    `change`(picture) may spoil Glanz's picture first, for a test of the test; `build`(tree, case) makes nodes and their inputs.
     """
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     columns = math.ceil(math.sqrt(len(cases)))
@@ -31,7 +31,7 @@ def shares(cases, path, change=None):
         square = blender.add_plane(f"{case.kind} {number}", mesh=data, location=(2 * column, -2 * row, 0))
         square.color = (0.2, 0.5, 0.8, 0.7)
         square.pass_index = number % 5
-        data.materials.append(_glow(case, number))
+        data.materials.append(_glow(case, number, build))
     ours, theirs = _rendered(path)
     # Negative light is none.
     theirs = np.maximum(theirs, 0)
@@ -40,7 +40,8 @@ def shares(cases, path, change=None):
     for number, case in enumerate(cases):
         row, column = divmod(number, columns)
         part = (slice(SIDE * row + 1, SIDE * (row + 1) - 1), slice(SIDE * column + 1, SIDE * (column + 1) - 1))
-        a, b = ours[part], theirs[part]
+        # There is no negative light in Glanz.
+        a, b = ours[part], np.maximum(theirs[part], 0)
         found[case] = float((np.abs(a - b) <= NEAR * np.maximum(1, np.abs(b))).all(axis=2).mean())
     return found
 
@@ -54,7 +55,7 @@ def _rendered(path):
     return parity.pixels("GLANZ", path), parity.pixels("CYCLES", path)
 
 
-def _glow(case, number):
+def _glow(case, number, build):
     """What a case gives, times 1/4 and plus 1/2, as emission: negative values are seen as well."""
     material = bpy.data.materials.new(f"{case.kind} {number}")
     material.pass_index = number % 7

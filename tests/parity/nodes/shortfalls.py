@@ -1,7 +1,11 @@
 """What must agree with Cycles, and what does not, and why."""
 
+_POLES = "where it divides by next to nothing: both engines look at places that are up to a hundredth of a pixel apart"
+
 NODES = {
-    "ShaderNodeMapping": ("only constant locations, rotations and scales are read", None),
+    "ShaderNodeMath": (_POLES, lambda case: case.properties.get("operation") in ("DIVIDE", "SNAP")),
+    "ShaderNodeVectorMath": (_POLES, lambda case: case.properties.get("operation") in ("DIVIDE", "SNAP", "MODULO", "WRAP")),
+    "ShaderNodeMapRange": (_POLES, lambda case: case.properties.get("interpolation_type") in ("LINEAR", "STEPPED")),
 }
 """{node type: (reason, condition (case) or None for all cases)}."""
 
