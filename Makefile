@@ -27,13 +27,14 @@ READY := $(VENV)/.ready-$(VERSION)
 RUN := $(VENV)/bin/python
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render test bench gallery nodes extension extension-linux lint clean distclean
+.PHONY: help setup render test bench gallery nodes closures extension extension-linux lint clean distclean
 
 help:
 	@echo "make render           render sample_scenes/cornell_box.blend to out/"
 	@echo "make test             run all tests"
 	@echo "make bench            measure speed against Cycles"
 	@echo "make nodes            compare every node with Cycles for docs/nodes.md"
+	@echo "make closures         compare every shader with Cycles for docs/closures.md"
 	@echo "make gallery          render the pictures of docs/gallery.md"
 	@echo "make extension        build the Blender extension for every platform in dist/"
 	@echo "make extension-linux  build it for Linux only"
@@ -65,6 +66,9 @@ bench: $(READY)
 
 nodes: $(READY)
 	$(RUN) tools/node_table.py
+
+closures: $(READY)
+	$(RUN) tools/closure_table.py
 
 gallery: $(READY)
 	$(RUN) tools/gallery.py

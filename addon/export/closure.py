@@ -4,11 +4,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...engine import Dielectric, Lambert, LambertTransmission, Mirror, Phong, Transparent, albedo_of, textures_of
+from ...engine import Dielectric, Lambert, LambertTransmission, Mirror, Phong, PhongLecture, Transparent, albedo_of, textures_of
 from .colours import WHITE, added, as_texture, cut, inverted, times, varies
 
 SHARPEST_EXPONENT = 1e6
 """The engine's sharpest Phong lobe, 0.1 degrees wide; what would be sharper (roughness below 0.0376) is a mirror."""
+
+EDGELESS_EXPONENT = 4.0
+"""From here on the edge of a lobe, a right angle from its middle, is too dark to be seen; roughness 0.76."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,10 +78,20 @@ def phong_exponent(roughness):
     return 2 / alpha2 - 2 if alpha2 > 0 else np.inf
 
 
-def glossy_lobe(colour, roughness):
-    """The lobe of Blender's `roughness`: Phong, or a mirror where that would be too sharp."""
-    exponent = phong_exponent(roughness)
-    return Phong(colour, exponent) if exponent <= SHARPEST_EXPONENT else Mirror(colour)
+def glossy_lobes(colour, roughness):
+    """The lobes of Blender's `roughness`, a tuple: Phong's of 1975, or a mirror where that would be too sharp.
+
+    Like Blender's it is as bright at grazing as seen straight on, but for what of it lies below the horizon; the modified
+    lobe falls with the cosine, so that metals had dark rims. Its factor makes `colour` the share that is reflected. As it
+    grows wide it ends at an edge of shadow, and gives way to the modified lobe, which is Lambert's at roughness 1.
+    """
+    n = phong_exponent(roughness)
+    if n > SHARPEST_EXPONENT:
+        return (Mirror(colour),)
+    share = min(n / EDGELESS_EXPONENT, 1.0)
+    sharp = PhongLecture(times(colour, share * (n + 1) / (n + 2)), n)
+    wide = Phong(times(colour, 1 - share), n)
+    return tuple(lobe for lobe, part in ((sharp, share), (wide, 1 - share)) if part > 0)
 
 
 def diffuse(colour):
@@ -93,7 +106,7 @@ def translucent(colour):
 
 def glossy(colour, roughness):
     """A glossy lobe of `colour`."""
-    return Closure((glossy_lobe(as_texture(colour), roughness),))
+    return Closure(glossy_lobes(as_texture(colour), roughness))
 
 
 def glass(colour, ior):

@@ -17,7 +17,7 @@ from functools import lru_cache
 import numpy as np
 
 from ...engine import Dielectric, Lambert
-from .closure import glossy_lobe
+from .closure import glossy_lobes
 from .colours import added, as_texture, cut, times, typical, varies
 
 _ANGLES = 2048
@@ -36,7 +36,7 @@ def principled_lobes(base, metallic, roughness, ior, specular_level, tint=(1.0, 
     coat = (1 - m) * (1 - t) * coat
     glossy = added(times(base, m), coat) if m > 0 else tuple(coat.tolist())
     clear = (1 - m) * t
-    lobes = (Lambert(lambert), glossy_lobe(glossy, roughness))
+    lobes = (Lambert(lambert), *glossy_lobes(glossy, roughness))
     return (*lobes, Dielectric(ior, (clear,) * 3, times(np.sqrt(typical(base)), clear))) if clear > 0 else lobes
 
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from glanz.addon.export.principled import principled_lobes
-from glanz.engine import BumpMap, Dielectric, Lambert, LambertTransmission, Mirror, Phong, Transparent
+from glanz.engine import BumpMap, Dielectric, Lambert, LambertTransmission, Mirror, Phong, PhongLecture, Transparent, albedo_of
 from glanz.tests.addon import blender
 from glanz.tests.textured import extremes
 
@@ -40,9 +40,16 @@ def test_glossy_roughness_becomes_the_exponent(roughness, exponent):
     material, warnings = _exported(blender.new_material("M", "ShaderNodeBsdfAnisotropic", Color=(0.9, 0.5, 0.1, 1), Roughness=roughness))
     assert warnings == ()
     (lobe,) = material.lobes
-    assert type(lobe) is Phong
-    assert lobe.reflectance == pytest.approx((0.9, 0.5, 0.1))
+    assert type(lobe) is (PhongLecture if roughness < 1 else Phong)
+    assert albedo_of(lobe) == pytest.approx((0.9, 0.5, 0.1))
     assert lobe.exponent == pytest.approx(exponent, rel=1e-6)
+
+
+@pytest.mark.parametrize("roughness", [0.77, 0.9, 0.99])
+def test_wide_lobes_share_what_they_reflect(roughness):
+    material, _ = _exported(blender.new_material("M", "ShaderNodeBsdfAnisotropic", Color=(0.9, 0.5, 0.1, 1), Roughness=roughness))
+    assert {type(lobe) for lobe in material.lobes} == {PhongLecture, Phong}
+    assert np.sum([albedo_of(lobe) for lobe in material.lobes], axis=0) == pytest.approx((0.9, 0.5, 0.1))
 
 
 @pytest.mark.parametrize("roughness", [0.037, 0])
@@ -110,9 +117,9 @@ def test_principled_has_both_lobes_and_emission():
     shine = {"Emission_Color": (1, 0, 0, 1), "Emission_Strength": 2}
     material, warnings = _exported(blender.new_material("M", "ShaderNodeBsdfPrincipled", Base_Color=(0.5, 0.5, 0.5, 1), **shine))
     assert warnings == ()
-    assert {type(lobe) for lobe in material.lobes} == {Lambert, Phong}
+    assert {type(lobe) for lobe in material.lobes} == {Lambert, PhongLecture}
     assert material.emission == (2, 0, 0)
-    assert np.sum([lobe.reflectance for lobe in material.lobes], axis=0) == pytest.approx([0.5 * 0.908 + 0.0918] * 3, abs=1e-3)
+    assert np.sum([albedo_of(lobe) for lobe in material.lobes], axis=0) == pytest.approx([0.5 * 0.908 + 0.0918] * 3, abs=1e-3)
 
 
 @pytest.mark.parametrize(

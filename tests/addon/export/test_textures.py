@@ -4,7 +4,7 @@ import bpy
 import numpy as np
 import pytest
 
-from glanz.engine import ImageTexture, Lambert, LambertTransmission, LinearTexture, Phong
+from glanz.engine import ImageTexture, Lambert, LambertTransmission, LinearTexture, PhongLecture
 from glanz.tests.addon import blender
 from glanz.tests.textured import extremes
 
@@ -251,12 +251,12 @@ def test_the_base_colour_of_principled_may_be_a_texture():
     o, warnings = exported(material)
     assert warnings == ()
     lobes = {type(lobe): lobe for lobe in o.materials[0].lobes}
-    assert set(lobes) == {Lambert, Phong}
-    diffuse, glossy = (lobes[kind].reflectance for kind in (Lambert, Phong))
+    assert set(lobes) == {Lambert, PhongLecture}
+    diffuse, glossy = (lobes[kind].reflectance for kind in (Lambert, PhongLecture))
     assert type(diffuse) is type(glossy) is LinearTexture
     assert diffuse.textures[0] is glossy.textures[0]
     assert max(extremes(LinearTexture((diffuse, glossy), (1.0, 1.0)))[1]) <= 1 + 1e-6
-    assert glossy.factors[0] == pytest.approx((0.25,) * 3)
+    assert glossy.factors[0] == pytest.approx((0.25 * 31 / 32,) * 3)
 
 
 def test_emission_may_be_a_texture_and_is_scaled_by_its_strength():
