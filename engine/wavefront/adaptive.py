@@ -28,7 +28,7 @@ import numpy as np
 from ..constants import ONE_MINUS_EPS32
 from ..maths.hashing import mix
 from ..registry import PASSES
-from .cones import CARRIED
+from .cones import WIDTHS
 from .film import Film
 from .tiles import Pixels, rectangle
 
@@ -76,7 +76,7 @@ class Cells:
 
     def narrow(self, carried):
         """A cell is so many times narrower than its pixel."""
-        for name, _ in CARRIED:
+        for name in WIDTHS:
             if hasattr(carried, name):
                 setattr(carried, name, getattr(carried, name) * np.float32(0.5**self.level))
 

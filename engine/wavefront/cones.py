@@ -20,11 +20,19 @@ def nothing_yet(plan, rays):
     return np.zeros(rays.sample.shape, np.float32)
 
 
-CARRIED = (("width", nothing_yet), ("spread", nothing_yet))
-"""The width of a cone where its ray starts, and by how much it widens per distance.
+def as_the_film(plan, rays):
+    """A column (N,) of True."""
+    return np.ones(rays.sample.shape, bool)
 
-Rays that have landed also know their `extent`: the width there.
+
+CARRIED = (("width", nothing_yet), ("spread", nothing_yet), ("is_even", as_the_film))
+"""The width of a cone where its ray starts, by how much it widens per distance, and whether its neighbours' lie beside it.
+
+They do not after a scattering by chance: such rays meet surfaces here and there, and see them as finely as from above, as
+what they pass at a slant is averaged by their being many. Rays that have landed also know their `extent`: the width there.
 """
+WIDTHS = ("width", "spread")
+"""Those of `CARRIED` that are in proportion to what a sample has of the film."""
 
 
 def aim_cones(aim):
@@ -62,6 +70,7 @@ def landing_with_cones(interact):
 def leave_with_cones(plan, rays, surface, scattered):
     """Scattered rays start with cones as wide as those that have landed."""
     scattered.carried.width = scattered.carried.extent
+    scattered.carried.is_even = scattered.carried.is_even & np.isinf(scattered.pdf)
     del scattered.carried.extent
 
 
@@ -83,7 +92,7 @@ def edges_at_time(plan, carried, prim):
 
 def footprints_of_cones(plan, carried, prim, wo, t=None):
     """What the cones of rays cut out of triangles `prim` (N,), see `world.texturing.footprints`; t (N,) is how far away, None: landed."""
-    return footprints(*plan.edges(plan, carried, prim), wo, _width(carried, t))
+    return footprints(*plan.edges(plan, carried, prim), wo, _width(carried, t), carried.is_even)
 
 
 def _width(carried, t):

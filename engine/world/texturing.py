@@ -8,6 +8,7 @@ from ..maths.vectors import cross, dot, length
 from ..scene.points import Points
 from .views import LampView
 
+_TINY = np.finfo(np.float32).tiny
 _LONGEST = 2.0**10
 """How much longer than wide footprints may be: grazing rays see the mean of what they pass anyway."""
 
@@ -119,23 +120,24 @@ _PLACES = {("position", ""): _position, ("camera", ""): _camera}
 """What points know without any mesh."""
 
 
-def footprints(e1, e2, wo, width):
+def footprints(e1, e2, wo, width, is_stretched):
     """Half-axes, two (2, N), of what cones of `width` (N,) cut out of triangles with edges e1, e2, in barycentric coordinates.
 
-    The cone's circle is stretched by 1 / cos along its direction (Akenine-Moller et al. 2021, "Improved Shader and Texture
-    Level of Detail Using Ray Cones", section 5).
+    Where `is_stretched` (N,) the cone's circle is longer by 1 / cos along its direction (Akenine-Moller et al. 2021,
+    "Improved Shader and Texture Level of Detail Using Ray Cones", section 5).
     """
     n = cross(e1, e2)
-    n /= np.maximum(length(n), np.finfo(np.float32).tiny)
+    n /= np.maximum(length(n), _TINY)
     cos = dot(n, wo)
     along = wo - cos * n
-    sin = length(along)
     # Seen from above all directions are alike, but one is needed.
-    along = np.where(sin > 0, along, e1)
-    along /= np.maximum(length(along), np.finfo(np.float32).tiny)
+    straight = np.nonzero(dot(along, along) == 0)[0]
+    if straight.size:
+        along[:, straight] = e1.take(straight, axis=1)
     radius = np.float32(0.5) * width
-    long = along * (radius / np.maximum(np.abs(cos), np.float32(1 / _LONGEST)))
-    return tuple(barycentric(a, e1, e2, n) for a in (long, cross(n, along) * radius))
+    short = radius / np.maximum(length(along), _TINY)
+    long = np.where(is_stretched, short / np.maximum(np.abs(cos), np.float32(1 / _LONGEST)), short)
+    return tuple(barycentric(a, e1, e2, n) for a in (along * long, cross(n, along) * short))
 
 
 def barycentric(a, e1, e2, n):

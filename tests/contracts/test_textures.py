@@ -49,11 +49,22 @@ from glanz.tests.contracts.converters import CONVERTERS, REFUSED, grows_beyond_n
 
 PICTURE = Bitmap(name="picture", pixels=np.random.default_rng(1).integers(0, 256, (3, 9, 16)).astype(np.uint8))
 BRIGHT = Bitmap(name="bright", pixels=np.random.default_rng(2).random((3, 4, 5), np.float32) * 3)
+COVER = Bitmap(name="cover", pixels=np.random.default_rng(3).integers(0, 256, (4, 6, 4)).astype(np.uint8))
 IMAGES = [ImageTexture(PICTURE, extension=e, is_smooth=s) for e in ("repeat", "extend", "clip", "mirror") for s in (True, False)]
 SLOPE = Average(LinearTexture((LinearTexture((GENERATED,), (0.5,), (0.1, 0.2, 0.3)),), (1.0,), is_clipped=True))
 """A number that varies, from 0 to 1."""
 EXAMPLES = {
-    "image": [*IMAGES, ImageTexture(BRIGHT)],
+    "image": [
+        *IMAGES,
+        ImageTexture(BRIGHT),
+        ImageTexture(PICTURE, is_cubic=True),
+        ImageTexture(COVER, output="uncut"),
+        ImageTexture(COVER, output="alpha", extension="mirror"),
+        ImageTexture(PICTURE, projection="sphere"),
+        ImageTexture(PICTURE, projection="tube"),
+        ImageTexture(PICTURE, GENERATED, projection="box", normal=NoiseTexture(is_coloured=True), blend=0.3),
+        ImageTexture(tiles=((1001, PICTURE), (1012, BRIGHT))),
+    ],
     "checker": [CheckerTexture((0.9, 0.1, 0.3), (0.0, 0.5, 0.3)), CheckerTexture(scale=2.0, output="fac")],
     "noise": [
         NoiseTexture(is_coloured=True, detail=3.5),
@@ -235,6 +246,8 @@ def test_a_wide_footprint_sees_the_average(value):
     """As wide as many periods: the average, to 1 %; where there are no periods there is nothing to average over."""
     if value.key not in ("image", "checker", "noise") or getattr(value, "distortion", 0):
         return
+    if isinstance(value, ImageTexture) and (value.projection != "flat" or value.tiles or value.output == "uncut"):
+        return
     if any(getattr(t, "extension", "repeat") in ("extend", "clip") for t in with_inner(value)) or getattr(value, "dimensions", 3) == 1:
         return
     axes = np.full((2, 3, N), 100, np.float32) * np.float32([[[1]], [[0.7]]])
@@ -245,7 +258,9 @@ def test_a_wide_footprint_sees_the_average(value):
 
 
 def whole(value):
-    """The mean over many periods."""
+    """The mean over many periods, of pictures that of their texels: between them codes are interpolated, not light."""
+    if isinstance(value, ImageTexture):
+        value = dataclasses.replace(value, is_smooth=False)
     return colour(value, Points(somewhere(n=200_000, scale=64.0))).mean(axis=1)
 
 
@@ -260,6 +275,10 @@ def test_wide_footprints_catch_a_checker_that_ignores_them(monkeypatch):
     ("value", "word"),
     [
         (ImageTexture(PICTURE, extension="wrap"), "wrap"),
+        (ImageTexture(PICTURE, projection="fold"), "fold"),
+        (ImageTexture(PICTURE, output="depth"), "depth"),
+        (ImageTexture(PICTURE, blend=1.5), "blend"),
+        (ImageTexture(tiles=((1001, 5),)), "tiles"),
         (ImageTexture(Bitmap(name="holes", pixels=np.full((3, 2, 2), np.nan, np.float32))), "holes"),
         (NoiseTexture(kind="pink"), "pink"),
         (NoiseTexture(dimensions=5), "5 dimensions"),

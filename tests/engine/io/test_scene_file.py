@@ -146,6 +146,9 @@ def textured_scene():
     rng = np.random.default_rng(3)
     bitmap = Bitmap(name="wood", pixels=rng.integers(0, 256, (3, 5, 7)).astype(np.uint8), is_srgb=False)
     image = ImageTexture(bitmap, Coordinates(layer="second", matrix=rng.standard_normal((4, 4))), "mirror", False)
+    cover = Bitmap(name="cover", pixels=rng.random((4, 3, 2), np.float32))
+    tiles = ((1001, bitmap), (1012, cover))
+    tiled = ImageTexture(bitmap, output="uncut", projection="box", blend=0.2, normal=image, is_cubic=True, tiles=tiles)
     mixed = LinearTexture((image, CheckerTexture()), ((0.1, 0.2, 0.3), (0.3, 0.2, 0.1)), (0.1, 0.1, 0.1), True)
     material = Material(name="m", lobes=(Lambert(mixed), Phong((0.1, 0.1, 0.1), image)), emission=image)
     material = dataclasses.replace(material, relief=(NormalMap(image), BumpMap(mixed, 0.3)))
@@ -158,7 +161,7 @@ def textured_scene():
         ),
     )  # fmt: skip
     values = (("colour", (0.1, 1 / 3, 0.5, 1.0)), ("random", (0.25,) * 4))
-    materials = (material, Material(name="n", emission=image))
+    materials = (material, Material(name="n", emission=tiled))
     return Scene(camera=None, objects=(Object(name="o", mesh=mesh, materials=materials, values=values),))
 
 
