@@ -3,7 +3,9 @@
 import numpy as np
 
 from ...engine import Bitmap
-from .images import MISSING, is_srgb, stored_pixels, weighs_by_alpha
+from .images import MISSING, has_codes_cut, texels_of, tiles_of
+
+_MAGENTA = Bitmap(name="missing", pixels=np.array(MISSING[:3], np.float32)[:, None, None])
 
 
 class Bitmaps:
@@ -13,74 +15,34 @@ class Bitmaps:
         self._findings = findings
         self._known = {}
 
-    def of(self, image, owner, part="colour"):
+    def of(self, image, owner, user=None, is_uncut=False):
         """The `Bitmap` of an image datablock, magenta where it is None or has no pixels; notes are for `owner`.
 
-        part  "colour", multiplied by alpha; "uncut", the colour where alpha is yet to cut it out; or "alpha", grey
+        user      the ImageUser of the node that shows it: of sequences it says the frame
+        is_uncut  its colours will be divided by alpha
         """
-        key = (image and image.name_full, part)
+        frame = user.frame_current if user and image and image.source == "SEQUENCE" else None
+        key = image and (image.name_full, frame, is_uncut and has_codes_cut(image))
+        return self._once(key, lambda: self._read(image, owner, user, is_uncut))
+
+    def tiles(self, image, owner, is_uncut=False):
+        """((number, `Bitmap`), ...) of a tiled image; () of others."""
+        if not image or image.source != "TILED":
+            return ()
+        return self._once(
+            (image.name_full, "tiles", is_uncut and has_codes_cut(image)),
+            lambda: tuple((number, _bitmap(image, *found)) for number, found in tiles_of(image, self._findings, owner, is_uncut)),
+        )
+
+    def _once(self, key, make):
         if key not in self._known:
-            self._known[key] = _PARTS[part](image, owner, self._findings)
+            self._known[key] = make()
         return self._known[key]
 
-
-def _colour(image, owner, findings):
-    pixels = stored_pixels(image, findings, owner)
-    if pixels is None:
-        return _missing()
-    if image.is_float:
-        return Bitmap(name=image.name, pixels=_channels(pixels))
-    pixels *= 255
-    pixels += 0.5
-    pixels = pixels.astype(np.uint8)
-    if weighs_by_alpha(image, pixels.shape[2]) and pixels[..., 3].min() < 255:
-        # As Cycles has it: bytes are multiplied as they are encoded.
-        pixels[..., :3] = pixels[..., :3].astype(np.uint16) * pixels[..., 3:] // 255
-    return Bitmap(name=image.name, pixels=_channels(pixels), is_srgb=is_srgb(image, findings, owner))
+    def _read(self, image, owner, user, is_uncut):
+        found = texels_of(image, self._findings, owner, user, is_uncut)
+        return _MAGENTA if found is None else _bitmap(image, *found)
 
 
-def _alpha(image, owner, findings):
-    pixels = stored_pixels(image, findings, owner)
-    if pixels is None:
-        return Bitmap(name="missing", pixels=np.ones((3, 1, 1), np.float32))
-    grey = pixels[..., 3:] if _has_alpha(image, pixels) else np.ones_like(pixels[..., :1])
-    return Bitmap(name=f"{image.name} alpha", pixels=_channels(grey if image.is_float else _bytes(grey)), is_srgb=False)
-
-
-def _uncut(image, owner, findings):
-    pixels = stored_pixels(image, findings, owner)
-    if pixels is None:
-        return _missing()
-    if not _has_alpha(image, pixels):
-        return _colour(image, owner, findings)
-    colour, alpha = pixels[..., :3], pixels[..., 3:]
-    if image.is_float:
-        colour = colour / np.where(alpha > 0, alpha, 1)
-    # What is not there has no colour. The average of what is there keeps filters from darkening its edges.
-    there = alpha > 0
-    average = (colour * alpha).sum(axis=(0, 1), dtype=np.float64) / max(alpha.sum(dtype=np.float64), np.finfo(np.float32).tiny)
-    colour = np.where(there, colour, average.astype(np.float32))
-    if image.is_float:
-        return Bitmap(name=image.name, pixels=_channels(colour))
-    return Bitmap(name=image.name, pixels=_channels(_bytes(colour)), is_srgb=is_srgb(image, findings, owner))
-
-
-_PARTS = {"colour": _colour, "uncut": _uncut, "alpha": _alpha}
-
-
-def _missing():
-    return Bitmap(name="missing", pixels=np.array(MISSING[:3], np.float32)[:, None, None])
-
-
-def _has_alpha(image, pixels):
-    return pixels.shape[2] == 4 and image.alpha_mode != "NONE"
-
-
-def _bytes(shares):
-    return (shares * 255 + 0.5).astype(np.uint8)
-
-
-def _channels(pixels):
-    """(3, H, W) of (H, W, 1 to 4); one channel, with or without alpha, is grey."""
-    colours = pixels[..., :3] if pixels.shape[2] >= 3 else np.repeat(pixels[..., :1], 3, axis=2)
-    return np.ascontiguousarray(np.moveaxis(colours, 2, 0))
+def _bitmap(image, texels, is_srgb):
+    return Bitmap(name=image.name, pixels=np.moveaxis(texels, 2, 0), is_srgb=is_srgb)

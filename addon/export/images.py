@@ -1,73 +1,149 @@
 """Blender's images as arrays of numbers."""
 
+import bpy
 import numpy as np
+
+from .image_files import pixels_in, pixels_of_data, pixels_of_file, scene_linear
 
 MISSING = (1.0, 0.0, 1.0, 1.0)
 """Magenta: what Blender shows for an image that it cannot find."""
+_PLAIN = ("Linear Rec.709", "Working Space")
+"""Colour spaces in which numbers are scene-linear as they are."""
 
 
-def stored_pixels(image, findings, owner):
-    """(H, W, 1 to 4) float32 as Blender hands an image out, row 0 is the bottom: bytes / 255, or scene-linear numbers.
+def texels_of(image, findings, owner, user=None, is_uncut=False):
+    """(texels, is_srgb) of an image datablock: (H, W, 4), row 0 is the bottom; alpha is 1 where it does not count.
 
-    None, with a note for `owner`, for an image that is missing or None.
+    As Cycles has them: uint8, colours encoded by sRGB or linear and, as they are encoded, multiplied by alpha; or float32,
+    scene-linear and multiplied by alpha. `user` is the ImageUser that says which frame of a sequence it is; `is_uncut`: colours
+    will be divided by alpha again. None, with a note for `owner`, for an image that is missing or None.
     """
     image = image and image.original
-    # The first look at the pixels loads the file; only then its size is known.
-    count = len(image.pixels) if image else 0
-    if not count:
+    found = image and _read(image, findings, owner, user)
+    if not found:
         findings.note(f"the image {repr(image.name) + ' ' if image else ''}is missing and is rendered magenta", owner)
+        return None
+    return _texels(image, *found, is_uncut)
+
+
+def tiles_of(image, findings, owner, is_uncut=False):
+    """((number, (texels, is_srgb)), ...) of a tiled image; tiles that are missing are noted for `owner` and left out."""
+    image = image.original
+    found, packed = [], {_name(f.filepath): f for f in image.packed_files}
+    for tile in image.tiles:
+        path = _path(image, image.filepath.replace("<UDIM>", str(tile.number)).replace("<UVTILE>", _uv_name(tile.number)))
+        content = packed.get(_name(path))
+        read = pixels_of_data(content.packed_file.data, path, image) if content else pixels_of_file(path, image)
+        if not read and len(image.tiles) == 1:
+            # It was never saved.
+            pixels = pixels_in(image)
+            read = None if pixels is None else (pixels, image.is_float)
+        if read:
+            found.append((tile.number, _texels(image, *read, is_uncut)))
+        else:
+            findings.note(f"tile {tile.number} of the image '{image.name}' is missing and is rendered magenta", owner)
+    return tuple(found)
+
+
+def linear_pixels(image, findings, owner, user=None):
+    """(4, H, W) float32: red, green, blue, scene-linear and multiplied by alpha, and alpha; row 0 is the top.
+
+    An image that is missing, or None, is one pixel of magenta and noted for `owner`.
+    """
+    found = texels_of(image, findings, owner, user)
+    if found is None:
+        return np.array(MISSING, np.float32)[:, None, None]
+    texels, is_srgb = found
+    pixels = np.moveaxis(texels[::-1], 2, 0)
+    if texels.dtype != np.uint8:
+        return np.ascontiguousarray(pixels)
+    shares = (np.arange(256) / 255).astype(np.float32)
+    result = shares.take(pixels)
+    if is_srgb:
+        result[:3] = _srgb_to_linear(shares).astype(np.float32).take(pixels[:3])
+    return result
+
+
+def is_cut_by_alpha(image):
+    """Whether the colours of an image are multiplied by its alpha; what is no colour is not."""
+    return bool(image) and image.alpha_mode not in ("NONE", "CHANNEL_PACKED") and not image.colorspace_settings.is_data
+
+
+def _read(image, findings, owner, user):
+    """(pixels, is_float), or None."""
+    if image.source == "SEQUENCE" and user is not None:
+        return pixels_of_file(_path(image, image.filepath_from_user(image_user=user)), image)
+    pixels = pixels_in(image)
+    if pixels is None:
         return None
     if image.source in ("SEQUENCE", "MOVIE", "TILED"):
         findings.note(f"of the image '{image.name}' only what Blender shows of it is rendered: it is a {image.source.lower()}", owner)
-    width, height = image.size
-    pixels = np.empty(count, np.float32)
-    image.pixels.foreach_get(pixels)
-    return pixels.reshape(height, width, -1)
+    return pixels, image.is_float
 
 
-def is_srgb(image, findings, owner):
-    """Whether the bytes of an image are encoded by the sRGB curve; else they are linear."""
+def has_codes_cut(image):
+    """Whether Cycles multiplies by alpha the codes of an image that Blender hands out as light: PNG files of sixteen bits."""
+    is_srgb = image.colorspace_settings.name == "sRGB"
+    return is_srgb and image.file_format == "PNG" and is_cut_by_alpha(image) and image.original.is_float
+
+
+def _texels(image, pixels, is_float, is_uncut):
+    """See `texels_of`."""
     space = image.colorspace_settings
-    # Known by name: Blender's own files only differ in these, and is_data marks what is no colour.
-    if space.is_data or space.name.startswith("Linear"):
-        return False
-    if space.name != "sRGB":
-        findings.note(f"the colour space {space.name} of the image '{image.name}' is taken for sRGB", owner)
-    return True
+    pixels = _of_four(pixels)
+    if image.alpha_mode == "NONE":
+        pixels[..., 3] = 1
+    if is_float:
+        if has_codes_cut(image) and not is_uncut:
+            alpha = pixels[..., 3:]
+            pixels[..., :3] = _srgb_to_linear(_encoded(pixels[..., :3] / np.where(alpha > 0, alpha, 1)) * alpha)
+        return pixels, False
+    is_srgb = space.name == "sRGB"
+    if not (is_srgb or space.is_data or space.name in _PLAIN):
+        pixels = scene_linear(pixels, space.name)
+        if is_cut_by_alpha(image):
+            pixels[..., :3] *= pixels[..., 3:]
+        return pixels, False
+    pixels *= 255
+    pixels += 0.5
+    texels = pixels.astype(np.uint8)
+    if is_cut_by_alpha(image) and texels[..., 3].min() < 255:
+        # As Cycles has it: bytes are multiplied as they are encoded.
+        texels[..., :3] = texels[..., :3].astype(np.uint16) * texels[..., 3:] // 255
+    return texels, is_srgb
 
 
-def weighs_by_alpha(image, channels):
-    """Whether the bytes of an image with so many `channels` have an alpha that counts, by which they are yet to be multiplied."""
-    return channels == 4 and not image.is_float and image.alpha_mode not in ("NONE", "CHANNEL_PACKED")
-
-
-def linear_pixels(image, findings, owner):
-    """(4, H, W) float32: red, green, blue, scene-linear and multiplied by alpha, and alpha; row 0 is the top.
-
-    Blender hands out floating-point images in just that form; bytes are encoded as their colour space says, with straight
-    alpha. An image that is missing, or None, is one pixel of magenta and noted for `owner`.
-    """
-    pixels = stored_pixels(image, findings, owner)
-    if pixels is None:
-        return np.array(MISSING, np.float32)[:, None, None]
-    pixels = pixels[::-1]
+def _of_four(pixels):
+    """(H, W, 4) of (H, W, 1 to 4): one channel, with or without alpha, is grey."""
     height, width, channels = pixels.shape
-    result = np.ones((4, height, width), np.float32)
-    # One channel is grey.
-    result[:3] = np.moveaxis(pixels[..., :3] if channels >= 3 else pixels[..., :1], 2, 0)
-    if channels == 4 and image.alpha_mode != "NONE":
-        result[3] = pixels[..., 3]
-    if not image.is_float:
-        if is_srgb(image, findings, owner):
-            result[:3] = _LINEAR_OF_BYTE.take((result[:3] * 255 + 0.5).astype(np.uint8))
-        if weighs_by_alpha(image, channels):
-            result[:3] *= result[3]
+    if channels == 4:
+        return pixels
+    result = np.ones((height, width, 4), np.float32)
+    result[..., :3] = pixels if channels == 3 else pixels[..., :1]
+    if channels == 2:
+        result[..., 3] = pixels[..., 1]
     return result
+
+
+def _path(image, path):
+    return bpy.path.abspath(path, library=image.library)
+
+
+def _name(path):
+    return bpy.path.basename(path)
+
+
+def _uv_name(number):
+    """A tile's number as Mudbox counts: from 1 in both directions."""
+    row, column = divmod(number - 1001, 10)
+    return f"u{column + 1}_v{row + 1}"
+
+
+def _encoded(c):
+    """The inverse of `_srgb_to_linear`."""
+    return np.where(c <= 0.0031308, 12.92 * c, 1.055 * np.maximum(c, 0) ** (1 / 2.4) - 0.055)
 
 
 def _srgb_to_linear(c):
     """IEC 61966-2-1."""
     return np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
-
-
-_LINEAR_OF_BYTE = _srgb_to_linear(np.arange(256) / 255).astype(np.float32)

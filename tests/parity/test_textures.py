@@ -1,8 +1,4 @@
-"""Textures are Cycles', pixel by pixel: a glowing tilted plane seen through the middles of pixels by both engines.
-
-An image with the colour space sRGB is compared texel by texel alone: between texels Cycles interpolates the encoded bytes,
-Glanz the light that they stand for.
-"""
+"""Textures are Cycles', pixel by pixel: a glowing tilted plane seen through the middles of pixels by both engines."""
 
 import bpy
 import numpy as np
@@ -68,8 +64,8 @@ CASES = {
     "clipped": ("Image", {"image": {}, "extension": "CLIP"}),
     "clipped, closest": ("Image", {"image": {}, "extension": "CLIP", "interpolation": "Closest"}),
     "mirrored": ("Image", {"image": {}, "extension": "MIRROR"}),
-    "sRGB": ("Image", {"image": {"colour_space": "sRGB"}, "interpolation": "Closest"}),
-    "with alpha": ("Image", {"image": {"alpha": True, "colour_space": "sRGB"}, "interpolation": "Closest"}),
+    "sRGB": ("Image", {"image": {"colour_space": "sRGB"}}),
+    "with alpha": ("Image", {"image": {"alpha": True, "colour_space": "sRGB"}}),
     "floats": ("Image", {"image": {"is_float": True}}),
     "checker": ("Checker", {"Scale": 4.3}),
     "factor of a checker at uv": ("Checker", {"output": "Fac", "source": "UV", "Scale": 3.0}),

@@ -1,0 +1,159 @@
+"""Images of more than one file: sequences and tiles; colour spaces; what is missing."""
+
+import bpy
+import numpy as np
+import pytest
+
+from glanz.engine import ImageTexture
+from glanz.engine.scene.textured import with_inner
+from glanz.tests.addon import blender
+from glanz.tests.addon.export.test_textures import exported, textured
+
+
+def save(path, grey, space="sRGB"):
+    """A file of 4 x 2 texels whose codes are `grey`, from 0 to 255."""
+    image = bpy.data.images.new("Scratch", 4, 2)
+    image.pixels.foreach_set(np.tile(np.float32((grey / 255,) * 3 + (1,)), 8))
+    image.filepath_raw, image.file_format = str(path), "PNG"
+    image.save()
+    bpy.data.images.remove(image)
+
+
+def shown(image, **user):
+    """(the texture that shows an image, warnings)."""
+    material, _, node = textured("Image")
+    node.image = image
+    for name, value in user.items():
+        setattr(node.image_user, name, value)
+    o, warnings = exported(material)
+    texture = o.materials[0].lobes[0].reflectance
+    assert type(texture) is ImageTexture or warnings
+    return texture, warnings
+
+
+def sequence(folder, frames=(1, 2, 3, 4)):
+    """An image whose frame f has the code 10 f."""
+    for frame in frames:
+        save(folder / f"picture_{frame:04}.png", 10 * frame)
+    image = bpy.data.images.load(str(folder / f"picture_{frames[0]:04}.png"))
+    image.source = "SEQUENCE"
+    return image
+
+
+@pytest.mark.parametrize(
+    ("frame", "user", "expected"),
+    [
+        (1, {}, 1),
+        (3, {}, 3),
+        (9, {}, 4),
+        (6, {"use_cyclic": True}, 2),
+        (3, {"frame_start": 2}, 2),
+        (2, {"frame_offset": 1}, 3),
+        (4, {"frame_duration": 2}, 2),
+    ],
+)
+def test_a_sequence_shows_the_frame_that_blender_says(tmp_path, frame, user, expected):
+    image = sequence(tmp_path)
+    count = len(bpy.data.images)
+    bpy.context.scene.frame_set(frame)
+    texture, warnings = shown(image, use_auto_refresh=True, **{"frame_duration": 4, "frame_start": 1, "frame_offset": 0, **user})
+    assert warnings == ()
+    assert (texture.bitmap.pixels[:3] == 10 * expected).all()
+    # Read apart from the open file.
+    assert len(bpy.data.images) == count
+
+
+def test_a_frame_that_is_missing_is_magenta_and_named(tmp_path):
+    image = sequence(tmp_path, (1, 3))
+    bpy.context.scene.frame_set(2)
+    texture, (warning,) = shown(image, use_auto_refresh=True, frame_duration=4, frame_start=1)
+    assert "magenta" in warning and image.name in warning
+    assert texture.bitmap.pixels[:, 0, 0].tolist()[:3] == [1, 0, 1]
+
+
+def tiled(folder, numbers=(1001, 1002, 1011), present=(1001, 1002, 1011)):
+    """An image whose tile 1001 + n has the code 10 (n + 1)."""
+    for number in present:
+        save(folder / f"skin.{number}.png", 10 * (number - 1000))
+    image = bpy.data.images.load(str(folder / f"skin.{numbers[0]}.png"))
+    image.source = "TILED"
+    image.filepath = str(folder / "skin.<UDIM>.png")
+    for number in numbers[1:]:
+        if number not in [tile.number for tile in image.tiles]:
+            image.tiles.new(tile_number=number)
+    return image
+
+
+def codes(texture):
+    return {number: int(bitmap.pixels[0, 0, 0]) for number, bitmap in texture.tiles}
+
+
+def test_a_tiled_image_brings_every_tile(tmp_path):
+    texture, warnings = shown(tiled(tmp_path))
+    assert warnings == ()
+    assert codes(texture) == {1001: 10, 1002: 20, 1011: 110}
+
+
+def test_a_tile_that_is_missing_is_named(tmp_path):
+    texture, (warning,) = shown(tiled(tmp_path, present=(1001, 1011)))
+    assert "tile 1002" in warning and "magenta" in warning
+    assert codes(texture) == {1001: 10, 1011: 110}
+
+
+def test_a_packed_tiled_image_needs_no_files(tmp_path):
+    image = tiled(tmp_path)
+    image.pack()
+    for path in tmp_path.glob("*.png"):
+        path.unlink()
+    texture, warnings = shown(image)
+    assert warnings == ()
+    assert codes(texture) == {1001: 10, 1002: 20, 1011: 110}
+
+
+def test_a_file_that_is_broken_is_magenta(tmp_path):
+    (tmp_path / "broken.png").write_bytes(b"\x89PNG\r\n\x1a\nbut nothing else")
+    image = bpy.data.images.load(str(tmp_path / "broken.png"))
+    texture, (warning,) = shown(image)
+    assert "magenta" in warning
+    assert np.shape(texture) == (3,) or texture.bitmap.pixels[:, 0, 0].tolist()[:3] == [1, 0, 1]
+
+
+def test_a_packed_file_that_has_vanished_is_there(tmp_path):
+    save(tmp_path / "grey.png", 70)
+    image = bpy.data.images.load(str(tmp_path / "grey.png"))
+    image.pack()
+    (tmp_path / "grey.png").unlink()
+    texture, warnings = shown(image)
+    assert warnings == ()
+    assert (texture.bitmap.pixels[:3] == 70).all()
+
+
+def test_colour_spaces_are_converted_by_blender(tmp_path):
+    """Grey of Rec.1886 is its code to the power of 2.4."""
+    save(tmp_path / "grey.png", 128)
+    image = bpy.data.images.load(str(tmp_path / "grey.png"))
+    image.colorspace_settings.name = "Rec.1886"
+    texture, warnings = shown(image)
+    assert warnings == ()
+    np.testing.assert_allclose(texture.bitmap.pixels[:3], (128 / 255) ** 2.4, rtol=2e-3)
+    assert [i.name for i in bpy.data.images if i.name.startswith("Encoded")] == []
+
+
+def test_a_movie_is_said_to_stand_still(tmp_path):
+    save(tmp_path / "grey.png", 70)
+    image = bpy.data.images.load(str(tmp_path / "grey.png"))
+    image.source = "MOVIE"
+    warnings = shown(image)[1]
+    assert len(warnings) == 1
+    assert "movie" in warnings[0] or "magenta" in warnings[0]
+
+
+def test_one_image_is_one_bitmap_for_colour_and_alpha(tmp_path):
+    material, tree, node = textured("Image", shader="ShaderNodeEmission")
+    node.image = bpy.data.images.new("Both", 4, 4, alpha=True)
+    shader = next(n for n in tree.nodes if n.type == "EMISSION")
+    tree.links.new(node.outputs["Alpha"], blender.node_input(shader, "Strength"))
+    o, _ = exported(material)
+    images = [t for t in with_inner(o.materials[0].emission) if isinstance(t, ImageTexture)]
+    assert {t.output for t in images} == {"uncut", "alpha"}
+    assert len({t.bitmap for t in images}) == 1
