@@ -32,7 +32,7 @@ def shares(cases, path, change=None, build=build):
         square.color = (0.2, 0.5, 0.8, 0.7)
         square.pass_index = number % 5
         data.materials.append(_glow(case, number, build))
-    ours, theirs = _rendered(path)
+    ours, theirs = rendered(path)
     # Negative light is none.
     theirs = np.maximum(theirs, 0)
     ours = ours if change is None else change(ours)
@@ -46,7 +46,7 @@ def shares(cases, path, change=None, build=build):
     return found
 
 
-def _rendered(path):
+def rendered(path):
     parity.be_exact(1, max_depth=0)
     scene = bpy.context.scene
     scene.glanz.pixel_filter, scene.cycles.pixel_filter_type = "blackman_harris", "BLACKMAN_HARRIS"

@@ -7,6 +7,8 @@ import bpy
 import numpy as np
 import pytest
 
+from glanz.tests import helpers as h
+from glanz.tests.addon import blender
 from glanz.tests.parity.nodes import grid
 
 BAR, ROUGHLY = 0.98, 0.9
@@ -140,3 +142,22 @@ def test_an_image_is_that_of_cycles(group, tmp_path):
     found = grid.shares(GROUPS[group], tmp_path, build=built(tmp_path))
     low = [(replace(c, kind=""), round(share, 3)) for c, share in found.items() if share < bar(c)]
     assert not low, "\n".join(f"{share} {c}" for c, share in low)
+
+
+@pytest.mark.parametrize("blend", [0.0, 0.3, 1.0])
+def test_a_box_around_a_ball_is_that_of_cycles(blend, tmp_path):
+    """Its six sides, seen from two corners."""
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    camera = blender.add_camera((3, -4, 3), 96, 96, type="ORTHO", ortho_scale=2.2)
+    shape = h.icosphere(4)
+    ball = blender.link("Ball", blender.new_mesh("Ball", shape.vertices.T.tolist(), shape.triangles.T.tolist()))
+    material = blender.new_material("Glow", "ShaderNodeEmission")
+    ball.data.materials.append(material)
+    output = built(tmp_path)(material.node_tree, case(projection="BOX", projection_blend=blend, source="Generated"))
+    material.node_tree.links.new(output, next(n for n in material.node_tree.nodes if n.type == "EMISSION").inputs["Color"])
+    for place in ((3, -4, 3), (-4, 2, -3)):
+        camera.location = place
+        camera.rotation_euler = (-camera.location).to_track_quat("-Z", "Y").to_euler()
+        ours, theirs = grid.rendered(tmp_path)
+        seen = theirs.any(axis=2) | ours.any(axis=2)
+        assert (np.abs(ours - theirs).max(axis=2) <= grid.NEAR)[seen].mean() >= BAR
