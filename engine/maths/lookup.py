@@ -13,7 +13,7 @@ EXTENSIONS = ("repeat", "extend", "clip", "mirror")
 """What is beyond the picture: its copies, its border, black, its reflections."""
 INTERPOLATIONS = ("closest", "linear", "cubic")
 """Between the texels of the picture itself: nothing, bilinear, cubic B-splines. Between those of mip maps: always bilinear."""
-MOST_TAPS = 8
+MOST_TAPS = 16
 """Lookups along the long axis of a footprint; one that is longer yet is blurred across."""
 _FARTHEST = 1.5
 """Texels between lookups side by side: each is a tent that is two wide, so that nothing falls between them."""
@@ -80,24 +80,28 @@ class Places:
         return result
 
 
-def places(layout, x, y, axes, extension, interpolation):
+def places(layout, x, y, axes, extension, interpolation, is_even=None):
     """The `Places` of points x, y (N,) with footprints of half-axes `axes`, two (2, N), or None.
 
     Where a footprint is smaller than a texel, that is in the picture itself. Else it is side by side along the long axis,
     in the level on which a texel is as wide as the short one (McCormack et al. 1999, "Feline", section 3). Between two
-    levels one is chosen by a number that depends on the place alone, so that on average there is no step.
+    levels one is chosen by a number that depends on the place alone, so that on average there is no step. Where not `is_even`
+    (N,) there is but one lookup: points are here and there, so that the long axis is averaged by their being many.
     """
     if axes is not None:
         # The squares of whole extents in texels, which need no roots.
         width, height = np.float32(2 * layout.width[0]), np.float32(2 * layout.height[0])
         a, b = (np.square(axis[0] * width) + np.square(axis[1] * height) for axis in axes)
         long, short = np.maximum(a, b), np.minimum(a, b)
+        if is_even is not None:
+            long = np.where(is_even, long, short)
         is_wide = long > 1
     if axes is None or not is_wide.any():
         return Places(_corners(None, x, y, *_whole(layout), extension, interpolation), None, x.size)
-    short = np.maximum(np.maximum(short, long * np.float32((_FARTHEST * MOST_TAPS) ** -2)), 1)
-    x, y, short, is_wide, groups = _side_by_side(x, y, axes, a >= b, long, short, is_wide)
-    level = _level(x, y, short, layout.width.size - 1) * is_wide
+    short = np.maximum(np.maximum(short, long * np.float32(MOST_TAPS**-2)), 1)
+    columns, groups = _side_by_side((x, y, short, is_wide, _number_of(x, y)), axes, a >= b, long)
+    x, y, short, is_wide, u1 = columns
+    level = _level(short, u1, layout.width.size - 1) * is_wide
     base, coarse = np.nonzero(level == 0)[0], np.nonzero(level)[0]
     parts = []
     for lanes, how in ((base, interpolation), (coarse, "linear")):
@@ -111,44 +115,52 @@ def places(layout, x, y, axes, extension, interpolation):
     return Places(*parts, level.size, groups)
 
 
-def _side_by_side(x, y, axes, is_first, long, short, is_wide):
-    """x, y, short, is_wide of all lookups, and their groups; `is_first` says which of `axes` is the long one."""
+def _side_by_side(columns, axes, is_first, long):
+    """The columns x, y, short, is_wide, u1 of all lookups, and their groups; `is_first` says which of `axes` is the long one."""
+    _, _, short, is_wide, _ = columns
     with np.errstate(invalid="ignore"):
         ratio = long / short
     # What is no number exceeds nothing.
     taps = sum((ratio > (_FARTHEST * n) ** 2).view(np.int8) for n in _DOUBLINGS) * is_wide
     if not taps.any():
-        return x, y, short, is_wide, ()
+        return columns, ()
     parts, groups = [], []
     for power in range(len(_DOUBLINGS) + 1):
         lanes = np.nonzero(taps == power)[0]
         if not lanes.size:
             continue
         n = 2**power
-        own = [column.take(lanes) for column in (x, y, short, is_wide)]
+        own = [column.take(lanes) for column in columns]
         groups.append((lanes, n))
         if n > 1:
             first = is_first.take(lanes)
             along = (np.where(first, axes[0][i].take(lanes), axes[1][i].take(lanes)) for i in (0, 1))
-            place = ((2 * np.arange(n, dtype=np.float32) + 1) / n - 1)[:, None]
+            share = (np.arange(n, dtype=np.float32) / n)[:, None]
+            place = 2 * share + np.float32(1 / n - 1)
             own[:2] = ((p + place * step).ravel() for p, step in zip(own, along))
-            own[2:] = (np.tile(column, n) for column in own[2:])
+            own[2:4] = (np.tile(column, n) for column in own[2:4])
+            # All of a point's numbers are evenly spread, so that its levels nearly are what they are on average.
+            own[4] = ((own[4] + share) % 1).ravel()
         parts.append(own)
-    return *map(np.concatenate, zip(*parts)), tuple(groups)
+    return map(np.concatenate, zip(*parts)), tuple(groups)
 
 
 _DOUBLINGS = [2**power for power in range(MOST_TAPS.bit_length() - 1)]
 
 
-def _level(x, y, square, last):
-    """The level, at most `last`, on which a texel is as wide as the root of `square` (N,), up or down as x, y have it."""
-    # A number from 1 to 2: hashed, as neighbours would else be alike.
+def _number_of(x, y):
+    """A number in [0, 1) for each place x, y (N,), hashed, as neighbours would else be alike."""
     bits = x.view(np.uint32) * np.uint32(0x9E3779B1) ^ y.view(np.uint32) * np.uint32(0x85EBCA77)
     bits ^= bits >> np.uint32(15)
     bits *= np.uint32(0xC2B2AE3D)
     bits >>= np.uint32(9)
     bits |= np.uint32(0x3F800000)
-    dither = bits.view(np.float32)
+    return bits.view(np.float32) - 1
+
+
+def _level(square, u1, last):
+    """The level, at most `last`, on which a texel is as wide as the root of `square` (N,), up or down as u1 in [0, 1) has it."""
+    dither = 1 + u1
     # Half of the exponent of a square.
     level = ((square * dither * dither).view(np.int32) - np.int32(127 << 23)) >> 24
     return np.minimum(level, last)

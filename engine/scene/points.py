@@ -22,6 +22,8 @@ class Points:
 
     count = 1
     across = None
+    is_even = None
+    """(N,) where what looks at the points looks at others beside them as well, see `wavefront.cones`; None: everywhere."""
 
     def __init__(self):
         self._known = {}

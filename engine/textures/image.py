@@ -69,7 +69,7 @@ class ImageTexture:
         if self.projection == "box":
             return self._on_box(at, p, axes)
         x, y, axes = at.once((self.projection, self.coordinates), lambda: PROJECTIONS[self.projection](p, axes))
-        return self._tiled(x, y, axes) if self.tiles else self._of(self.bitmap, self._places(at, "xy", x, y, axes))
+        return self._tiled(at, x, y, axes) if self.tiles else self._of(self.bitmap, self._places(at, "xy", x, y, axes))
 
     @property
     def _interpolation(self):
@@ -79,14 +79,14 @@ class ImageTexture:
         """Shared by all pictures of one size that lie alike."""
         layout = self.bitmap.pyramid.layout
         how = layout, self.extension, self._interpolation
-        return at.once((side, self.projection, self.coordinates, *how), lambda: places(layout, x, y, axes, *how[1:]))
+        return at.once((side, self.projection, self.coordinates, *how), lambda: places(layout, x, y, axes, *how[1:], at.is_even))
 
     def _of(self, bitmap, where):
         if self.output == "alpha":
             return bitmap.pyramid.alpha(where)
         return (bitmap.uncut if self.output == "uncut" else bitmap.pyramid).colours(where)
 
-    def _tiled(self, x, y, axes):
+    def _tiled(self, at, x, y, axes):
         column, row = np.floor(x), np.floor(y)
         number = np.where((column >= 0) & (column < 10) & (row >= 0), 1001 + column + 10 * row, 0)
         is_number = self.output == "alpha"
@@ -97,7 +97,8 @@ class ImageTexture:
             if lanes.size:
                 px, py = (x - column).take(lanes), (y - row).take(lanes)
                 across = axes and [axis.take(lanes, axis=1) for axis in axes]
-                where = places(bitmap.pyramid.layout, px, py, across, "extend", self._interpolation)
+                is_even = None if at.is_even is None else at.is_even.take(lanes)
+                where = places(bitmap.pyramid.layout, px, py, across, "extend", self._interpolation, is_even)
                 result[:, lanes] = self._of(bitmap, where)
         return result
 

@@ -15,19 +15,20 @@ from .texturing import points_of
 
 def bend_normals(plan, rays, surface):
     """The surface with the normals that the reliefs of its materials give it, one after the other."""
-    points, ns = points_of(plan, rays, surface), np.array(surface.ns)
+    points, ns, looked = points_of(plan, rays, surface), np.array(surface.ns), {}
     for row, reliefs in plan.world.materials.relief.items():
         lanes = np.nonzero(surface.material == row)[0]
         if not lanes.size:
             continue
         at = points.take(lanes)
-        own = surface.take(lanes)
-        for relief in reliefs:
-            bent = np.broadcast_to(at.on(own).value(relief), own.ns.shape)
+        own = at.once("surface", lambda lanes=lanes: surface.take(lanes))
+        looked[row] = lanes, at
+        for i, relief in enumerate(reliefs):
+            bent = np.broadcast_to((at.on(own) if i else at).value(relief), own.ns.shape)
             # Not where it is not a number either; and what is the same keeps every bit.
             used = np.nonzero((bent != own.ns).any(axis=0) & (dot(bent, own.n) > 0))[0]
             normals = np.array(own.ns)
             normals[:, used] = unit(bent.take(used, axis=1))
             own = dataclasses.replace(own, ns=normals)
         ns[:, lanes] = own.ns
-    return dataclasses.replace(surface, ns=ns)
+    return dataclasses.replace(surface, ns=ns, looked=looked)

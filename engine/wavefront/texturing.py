@@ -24,15 +24,19 @@ def fill_in_textures(plan, rays, surface, reflection):
     There the lobes together reflect at most what does not pass straight on, and are chosen by what they reflect.
     """
     materials = plan.world.materials
-    points, count = points_of(plan, rays, surface), surface.prim.size
+    points, count = None, surface.prim.size
     lobes = [*reflection.rough, *reflection.specular]
     # Where there is but one lobe, the table has no shares by lane.
     own, shares = {}, np.array(np.broadcast_to(reflection.shares if len(lobes) > 1 else np.float32(1), (len(lobes), count)))
     for row, textured in materials.textured.items():
-        lanes = np.nonzero(surface.material == row)[0]
-        if not lanes.size:
-            continue
-        at = points.take(lanes)
+        if row in surface.looked:
+            lanes, at = surface.looked[row]
+        else:
+            lanes = np.nonzero(surface.material == row)[0]
+            if not lanes.size:
+                continue
+            points = points or points_of(plan, rays, surface)
+            at = points.take(lanes)
         for t in textured:
             if t.lobe not in own:
                 own[t.lobe] = _with_own_columns(lobes[t.lobe].k, count)

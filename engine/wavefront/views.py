@@ -28,6 +28,12 @@ class RayView:
         chosen = lanes if self._lanes is None else self._lanes.take(lanes)
         return RayView(self._plan, self._all, self._t.take(lanes), chosen, self._is_shadow)
 
+    @property
+    def is_even(self):
+        """(M,) as rays carry it, see `cones`; None where they do not."""
+        found = getattr(self._all.carried, "is_even", None)
+        return found if found is None or self._lanes is None else found.take(self._lanes)
+
     @cached_property
     def _rays(self):
         return self._all if self._lanes is None else self._all.landed(self._lanes)

@@ -1,6 +1,6 @@
 """Where rays meet the scene: points, normals, and where rays go on."""
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 
 import numpy as np
 
@@ -24,6 +24,7 @@ class Surface:
     material  (M,) rows of the materials
     u, v      (M,) where in the triangle: barycentric coordinates of its second and third corner
     t         (M,) how far the rays have come
+    looked    {row of the materials: (lanes, `TexturePoints`)} where reliefs have looked textures up already
     """
 
     p: np.ndarray
@@ -37,10 +38,11 @@ class Surface:
     u: np.ndarray
     v: np.ndarray
     t: np.ndarray
+    looked: dict = field(default_factory=dict)
 
     def take(self, lanes):
         """The points `lanes`."""
-        return Surface(*(getattr(self, f.name).take(lanes, axis=-1) for f in fields(self)))
+        return Surface(*(getattr(self, f.name).take(lanes, axis=-1) for f in fields(self) if f.name != "looked"))
 
 
 def flat_normals(triangles, prim, u, v, n, sign):

@@ -32,6 +32,11 @@ class TexturePoints(Points):
         """N."""
         return self.prim.size
 
+    @property
+    def is_even(self):
+        """(N,) see `Points`."""
+        return self._view and self._view.is_even
+
     def take(self, lanes):
         """The points `lanes` (M,)."""
         across = self.across and tuple(axis.take(lanes, axis=1) for axis in self.across)

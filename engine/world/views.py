@@ -55,6 +55,8 @@ class LampView:
     They are looked at once more where paths meet them; so here they are of no kind of ray.
     """
 
+    is_even = None
+
     def __init__(self, glow, k, d, distance):
         self.frame, self.camera = glow.frame, glow.camera
         self.d = d

@@ -210,8 +210,7 @@ def test_between_levels_there_is_no_step_on_average():
 
 
 def test_the_mean_between_levels_catches_levels_that_are_rounded(monkeypatch):
-    number = lookup._level
-    monkeypatch.setattr(lookup, "_level", lambda x, y, square, last: number(np.full_like(x, 0.3), np.full_like(y, 0.3), square, last))
+    monkeypatch.setattr(lookup, "_number_of", lambda x, y: np.full_like(x, 0.3))
     with pytest.raises(AssertionError):
         test_between_levels_there_is_no_step_on_average()
 
