@@ -225,3 +225,22 @@ def test_coordinates_beyond_reason_end_in_no_exception(value):
                 assert np.isfinite(look_up(pyramid, x, x, extension, interpolation)[:, 1]).all()
             for long in (3, value):
                 assert np.isfinite(filtered(pyramid, x, x, (3, 0), (0, long), extension)[:, 1]).all()
+
+
+def test_points_here_and_there_are_looked_up_once_and_see_the_same_on_average():
+    """Over the length of a footprint, points of which each sees but its own middle see what one that sees all of it does."""
+    pyramid, x = wave()
+    n, half = x.size, np.float32(0.2)
+    axes = [np.broadcast_to(np.float32(axis)[:, None], (2, n)) for axis in ((half, 0), (0, 0.02))]
+    along = x + half * np.linspace(-1, 1, n, dtype=np.float32)
+    whole = places(pyramid.layout, x, x, axes, "repeat", "linear", np.ones(n, bool))
+    each = places(pyramid.layout, along, x, axes, "repeat", "linear", np.zeros(n, bool))
+    assert each.count == n < whole.count
+    assert np.abs(pyramid.colours(each).mean(axis=1) - pyramid.colours(whole).mean(axis=1)).max() <= 0.01
+
+
+def test_even_points_are_those_of_which_nothing_is_said():
+    pyramid, (x, y) = Pyramid.of(encoded((16, 8)), True), points()
+    axes = np.random.default_rng(1).random((2, 2, x.size), np.float32) * 0.5
+    said, unsaid = (places(pyramid.layout, x, y, axes, "repeat", "linear", even) for even in (np.ones(x.size, bool), None))
+    assert h.same_bits(pyramid.colours(said), pyramid.colours(unsaid))
