@@ -14,6 +14,9 @@ from .lookup import Layout
 _CODES = 2**16
 """Steps of the table that decodes what is between two bytes: 257 from one to the next."""
 
+_ROWS = 16
+"""Of a picture that are decoded at a time."""
+
 
 @lru_cache(maxsize=4)
 def decoding_table(is_srgb, steps=256):
@@ -46,9 +49,10 @@ class Pyramid:
             if levels:
                 levels.append(_halved(_halved(levels[-1], 0), 1))
             else:
-                # Channel by channel: the decoded picture need not exist as a whole.
-                channels = (_decoded(texels, channel, is_srgb, is_uncut) for channel in range(4))
-                levels.append(np.stack([_halved(_halved(c, 0), 1) for c in channels], axis=2))
+                # A few rows at a time: the decoded picture need not exist as a whole. Halves of an odd number share a row.
+                rows = _ROWS if len(texels) % 2 == 0 else len(texels)
+                parts = (texels[start : start + rows] for start in range(0, len(texels), rows))
+                levels.append(np.concatenate([_halved(_halved(_decoded(part, is_srgb, is_uncut), 0), 1) for part in parts]))
         coarse = np.concatenate([level.reshape(-1, 4) for level in levels]) if levels else np.zeros((0, 4), np.float32)
         return cls(texels.reshape(-1, 4), coarse, layout, is_srgb, is_uncut)
 
@@ -131,18 +135,19 @@ def _divide(colours, alpha, whole):
     colours *= np.where(alpha > 0, whole / np.where(alpha > 0, alpha, 1), 1).astype(np.float32)
 
 
-def _decoded(texels, channel, is_srgb, is_uncut):
-    """A channel of the picture (H, W), linear; colours multiplied by alpha, if they are to be divided by it."""
-    values = texels[..., channel]
+def _decoded(texels, is_srgb, is_uncut):
+    """Texels (H, W, 4), linear, float32; colours multiplied by alpha, if they are to be divided by it."""
     if texels.dtype == np.float32:
-        return values
-    if channel == 3 or not is_srgb:
-        return decoding_table(False).take(values)
-    if not is_uncut:
-        return decoding_table(True).take(values)
-    code, alpha = np.arange(256), np.maximum(np.arange(256), 1)[:, None]
-    straight = decoding_table(True, _CODES).take((code / alpha * (_CODES - 1) + 0.5).astype(np.intp), mode="clip")
-    return (straight * decoding_table(False)[:, None]).astype(np.float32).take(texels[..., 3].astype(np.uint16) * 256 + values)
+        return texels
+    result = decoding_table(False).take(texels)
+    if is_srgb and not is_uncut:
+        result[..., :3] = decoding_table(True).take(texels[..., :3])
+    elif is_srgb:
+        code, alpha = np.arange(256), np.maximum(np.arange(256), 1)[:, None]
+        straight = decoding_table(True, _CODES).take((code / alpha * (_CODES - 1) + 0.5).astype(np.intp), mode="clip")
+        cut = (straight * decoding_table(False)[:, None]).astype(np.float32)
+        result[..., :3] = cut.take(texels[..., 3:].astype(np.uint16) * 256 + texels[..., :3])
+    return result
 
 
 def _halved(texels, axis):
