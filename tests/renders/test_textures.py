@@ -1,7 +1,5 @@
 """Textured pictures with known answers: what is seen, what is lit, what does not alias, what does not depend on batches."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 
@@ -22,7 +20,6 @@ from glanz.engine import (
     Transparent,
     rendering,
 )
-from glanz.engine.arrays import Columns
 from glanz.engine.maths.mipmaps import decoding_table
 from glanz.engine.plan import Plan
 from glanz.engine.wavefront import cones
@@ -191,14 +188,6 @@ def test_a_checkerboard_to_the_horizon_is_grey_at_one_sample(texture):
     rows = near_the_horizon(plain_to_the_horizon(texture))
     assert np.abs(rows - 0.5).max() <= 0.1
     assert abs(rows.mean() - 0.5) <= 0.01
-
-
-def test_rays_scattered_by_chance_are_here_and_there_ever_after():
-    """A mirror keeps them beside each other, which no mirror can bring back."""
-    carried = Columns(width=np.zeros(3), spread=np.zeros(3), extent=np.ones(3), is_even=np.array([True, True, False]))
-    scattered = SimpleNamespace(carried=carried, pdf=np.float32([np.inf, 3, np.inf]))
-    cones.leave_with_cones(None, None, None, scattered)
-    assert carried.is_even.tolist() == [True, False, False]
 
 
 def test_the_horizon_catches_textures_without_footprints(monkeypatch):

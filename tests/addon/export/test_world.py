@@ -52,13 +52,13 @@ def test_a_picture_of_the_sky_is_the_environment():
     assert (world.environment.world_from_map == np.eye(3)).all()
 
 
-def test_bytes_are_decoded_and_multiplied_by_alpha():
-    """sRGB 0.5 (128 of 255) is 0.2159 linear; of half alpha only half counts, unless alpha means something else."""
-    for mode, factor in (("STRAIGHT", 128 / 255), ("CHANNEL_PACKED", 1), ("NONE", 1)):
+def test_bytes_are_multiplied_by_alpha_and_decoded():
+    """sRGB 128 of 255 is 0.2159 linear; of half alpha only half of the code counts, as in Cycles, unless alpha means something else."""
+    for mode, expected in (("STRAIGHT", 0.051269), ("CHANNEL_PACKED", 0.215861), ("NONE", 0.215861)):
         image = new_image(np.full((2, 4, 3), 128 / 255), is_float=False, alpha=128 / 255)
         image.alpha_mode = mode
         set_sky(image)
-        np.testing.assert_allclose(blender.export()[0].world.environment.pixels, 0.215861 * factor, rtol=1e-5)
+        np.testing.assert_allclose(blender.export()[0].world.environment.pixels, expected, rtol=1e-5)
 
 
 def test_one_picture_is_loaded_as_it_is_saved(tmp_path):
