@@ -210,7 +210,10 @@ def _range(socket, kind):
         return ranges[socket.identifier]
     if socket.type == "VECTOR":
         return (-1.5, 1.5)
-    p = socket.bl_rna.properties["default_value"]
+    p = socket.bl_rna.properties.get("default_value")
+    if p is None:
+        # Shaders have none.
+        return (0.0, 1.0)
     low, high = max(p.soft_min, -2.0), min(p.soft_max, 2.0)
     return (low, high) if low < high else (0.0, 1.0)
 
