@@ -68,7 +68,6 @@ from .textures.noise import NoiseTexture
 from .textures.normal_dot import NormalDot
 from .textures.normal_map import NormalMap
 from .textures.object_value import ObjectValue
-from .textures.preetham import PreethamSky
 from .textures.separate import Separate
 from .textures.sky import SkyTexture
 from .textures.tangent import Tangent
@@ -150,7 +149,6 @@ __all__ = [
     "PhongLecture",
     "PhongTransmission",
     "PointLight",
-    "PreethamSky",
     "Progress",
     "Requirements",
     "Scene",

@@ -121,7 +121,8 @@ class Texture(Protocol):
     the same fields are two. Fields annotated `object` are inputs: a number, three numbers, or a texture.
 
     A texture also says, where it is so: `is_pure = False`, it is no function of its inputs alone (see `is_pure`); and
-    `has_detail = True`, it is averaged over footprints, so that rays have to carry them (see `has_detail`).
+    `has_detail = True`, it is averaged over footprints, so that rays have to carry them (see `has_detail`). One that has `coordinates`
+    and, seen as a sky, disks much brighter than around, has a method `spots`() that yields (unit vector, radius [rad]) of each.
     """
 
     key: str

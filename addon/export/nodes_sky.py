@@ -1,58 +1,59 @@
-"""Sky Texture nodes."""
+"""Sky Texture nodes, in all models of all versions of Blender."""
 
 import math
-from dataclasses import replace
 
-import numpy as np
+from ...engine import Coordinates, LinearTexture, SkyTexture
+from .mapping import note_mapping
 
-from ...engine import Coordinates, LinearTexture, PreethamSky, SkyTexture, SunLight
-from .colours import terms_of, varies
-
-_HOSEK = 0.18
-"""The light of Hosek's sky over that of Preetham's in Blender: 0.1 to 0.24, by turbidity and the sun's place."""
 _DIRECTION = Coordinates(source="generated")
+_MODELS = {
+    "PREETHAM": "preetham",
+    "HOSEK_WILKIE": "preetham",
+    "NISHITA": "nishita",
+    "SINGLE_SCATTERING": "single scattering",
+    "MULTIPLE_SCATTERING": "multiple scattering",
+}
+_SMALLEST_SUN = 0.0005
+"""Angular diameter [rad] of the smallest sun in Cycles."""
+_HOSEK_WILKIE = 0.14
+"""What the sky of Hosek and Wilkie gives in Blender, compared to Preetham's: the luminance of a clear sky."""
 
 
 def _sky(reader, node, output):
-    where = reader.vector(node, _DIRECTION)
-    if node.sky_type in ("PREETHAM", "HOSEK_WILKIE"):
-        sky = PreethamSky(where, tuple(float(c) for c in node.sun_direction), min(max(node.turbidity, 1.0), 30.0))
+    note_mapping(reader, node)
+    where = {"coordinates": reader.vector(node, _DIRECTION)}
+    model = _MODELS[node.sky_type]
+    if model == "preetham":
+        x, y, z = node.sun_direction
+        length = math.hypot(x, y, z)
+        towards = (x / length, y / length, z / length) if length > 0 else (0.0, 0.0, 1.0)
+        sky = SkyTexture(model, sun_direction=towards, turbidity=node.turbidity, **where)
         if node.sky_type == "PREETHAM":
             return sky
-        reader.note("the sky of Hosek and Wilkie is rendered as Preetham's, in about its brightness")
-        return LinearTexture((sky,), (_HOSEK,))
-    if node.sky_type == "MULTIPLE_SCATTERING":
-        reader.note("light that the sky has scattered several times is left out: the sky is rendered as Single Scattering")
-    elevation, rotation = _place(node.sun_elevation, node.sun_rotation)
-    aerosols = node.aerosol_density if hasattr(node, "aerosol_density") else node.dust_density
-    densities = node.air_density, aerosols, node.ozone_density
-    angle = node.sun_size if node.sun_disc else 0.0
-    return SkyTexture(where, elevation, rotation, node.altitude, *densities, angle, node.sun_intensity)
+        reader.note("Hosek / Wilkie of Sky Texture is rendered as Preetham, as bright on average, without Ground Albedo")
+        return LinearTexture((sky,), (_HOSEK_WILKIE,))
+    elevation, rotation = _above(node.sun_elevation, node.sun_rotation)
+    return SkyTexture(
+        model,
+        has_disk=node.sun_disc,
+        sun_size=max(node.sun_size, _SMALLEST_SUN),
+        sun_intensity=node.sun_intensity,
+        sun_elevation=elevation,
+        sun_rotation=rotation,
+        altitude=node.altitude,
+        air=node.air_density,
+        haze=node.aerosol_density if hasattr(node, "aerosol_density") else node.dust_density,
+        ozone=node.ozone_density,
+        **where,
+    )
 
 
-def without_sun(radiance):
-    """(radiance, `SunLight` or None): the disc of the sun of a world that is but one sky, scaled, as a light that is easily found."""
-    terms = terms_of(radiance)
-    if len(terms.textures) != 1 or varies(terms.factors[0]) or type(terms.textures[0]) is not SkyTexture:
-        return radiance, None
-    (sky,), (factor,) = terms.textures, terms.factors
-    if not sky.sun_angle or not _is_upright(sky.coordinates):
-        return radiance, None
-    irradiance = tuple((sky.sun_irradiance * factor).tolist())
-    sun = SunLight(name="Sky", towards=sky.sun, irradiance=irradiance, angle=sky.sun_angle, is_visible=True)
-    return replace(terms, textures=(replace(sky, sun_angle=0.0),)), sun
-
-
-def _is_upright(coordinates):
-    return isinstance(coordinates, Coordinates) and np.array_equal(np.array(coordinates.matrix), np.eye(4))
-
-
-def _place(elevation, rotation):
-    """Elevation within [-pi/2, pi/2], and the rotation that goes with it."""
+def _above(elevation, rotation):
+    """The same place of the sun with an elevation from -pi / 2 to pi / 2: a sun that has passed the zenith is on the other side."""
     elevation = math.remainder(elevation, 2 * math.pi)
     if abs(elevation) > 0.5 * math.pi:
-        return math.copysign(math.pi, elevation) - elevation, rotation + math.pi
-    return elevation, rotation
+        return math.copysign(math.pi, elevation) - elevation, math.remainder(rotation + math.pi, 2 * math.pi)
+    return elevation, math.remainder(rotation, 2 * math.pi)
 
 
 TABLE = {"TEX_SKY": _sky}

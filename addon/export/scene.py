@@ -36,11 +36,13 @@ def export_views(depsgraph, settings, views, check=lambda: None, frame_set=None)
         override = _evaluated(depsgraph.view_layer_eval.material_override, depsgraph)
         tracks = Tracks(shutter, depsgraph, cameras, findings, check) if shutter else STILL
         world = _evaluated(getattr(depsgraph.view_layer_eval, "world_override", None) or scene.world, depsgraph)
-        world, suns = export_world(world, findings)
+        world = export_world(world, findings)
         # Last, for to see what moves Blender has to leave the frame.
         objects, lights = export_objects(depsgraph, findings, override, check, tracks)
-    common = {"name": scene.name, "objects": objects, "lights": (*lights, *suns), "world": world}
-    return tuple(Scene(camera=camera.moved(shutter, findings), **common) for camera in cameras), findings.lines()
+    scenes = tuple(
+        Scene(name=scene.name, camera=camera.moved(shutter, findings), objects=objects, lights=lights, world=world) for camera in cameras
+    )
+    return scenes, findings.lines()
 
 
 def _camera_track(depsgraph, settings, view):

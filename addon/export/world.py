@@ -7,27 +7,25 @@ from .bitmaps import Bitmaps
 from .environment import as_picture
 from .material import clean_colour
 from .nodes import has_nodes, output_node
-from .nodes_sky import without_sun
 from .shaders import surface_of
 from .values import Reader
 
 
 def export_world(world, findings):
-    """(the engine's `World`, light values that belong to it) for a world (evaluated); none is black."""
+    """The engine's `World` for a world (evaluated); none is black."""
     if world is None:
-        return World(), ()
+        return World()
     owner = f"world '{world.name}'"
     if not has_nodes(world):
-        return World(name=world.name, radiance=clean_colour(world.color, owner, findings)), ()
+        return World(name=world.name, radiance=clean_colour(world.color, owner, findings))
     output = output_node(world.node_tree)
     if output is None:
         findings.note("the node tree has no active output, so the world is black", owner)
-        return World(name=world.name), ()
+        return World(name=world.name)
     if Reader(owner, findings).is_linked(output, "Volume"):
         findings.note("the volume is left out", owner)
     radiance, picture = as_picture(surface_of(output, owner, findings, Bitmaps(findings)).emission)
-    if picture is not None:
-        strength = clean_colour(picture.strength, owner, findings)
-        return World(name=world.name, radiance=clean_colour(radiance, owner, findings), environment=replace(picture, strength=strength)), ()
-    radiance, sun = without_sun(radiance)
-    return World(name=world.name, radiance=clean_colour(radiance, owner, findings)), () if sun is None else (sun,)
+    if picture is None:
+        return World(name=world.name, radiance=clean_colour(radiance, owner, findings))
+    strength = clean_colour(picture.strength, owner, findings)
+    return World(name=world.name, radiance=clean_colour(radiance, owner, findings), environment=replace(picture, strength=strength))

@@ -1,136 +1,133 @@
-"""The light of a clear sky: sunlight scattered once in a round atmosphere, wavelength by wavelength.
+"""Daylight scattered many times, by the fit of F. García Liñán ("Fast spectral rendering of the atmosphere", 2024; fgarlin.com).
 
-Nishita, Sirai, Tadamura and Nakamae 1993, "Display of the Earth Taking into Account Atmospheric Scattering". Air and aerosols
-thin out exponentially, ozone is a layer around 25 km (Bruneton 2017, "A Qualitative and Quantitative Evaluation of 8 Clear Sky
-Models"). Lengths are in metres, wavelengths in nanometres, radiance in W m^-2 sr^-1 per channel of linear Rec. 709.
+Four wavelengths stand for the spectrum: 630, 560, 490 and 430 nm. Along each ray what is scattered once is added up exactly, what has been
+scattered more often is a fit, and includes what the ground reflects. Lengths in kilometres; the sun stands in the plane of z and x.
 """
-
-from functools import lru_cache
 
 import numpy as np
 
 from .spectrum import FROM_XYZ
 
-EARTH, TOP = 6360e3, 6420e3
-"""Radii of the earth and of the atmosphere."""
-_RAYLEIGH_HEIGHT, _MIE_HEIGHT = 8e3, 1.2e3
-_WAVELENGTHS = np.arange(380.0, 781.0, 20.0)
-_RAYLEIGH = 1131148.7658 * _WAVELENGTHS**-4
-"""Scattering of air at sea level [m^-1]: Rayleigh's law."""
-_MIE, _MIE_EXTINCTION, _G = 1 / 50e3, 1.11 / 50e3, 0.76
-"""Scattering and extinction of aerosols at sea level [m^-1], and the mean cosine of the angle that they scatter by."""
-_OZONE = np.fromstring(
-    "3.2513 5.8540 19.772 73.096 200.85 403.84 635.51 967.07 1547.97 2090.39 2461.28 2735.51 2151.26 1590.52 1123.56 735.28 464.50 "
-    "330.96 225.13 148.79 168.29",
-    sep=" ",
-) / 1e9
-"""Absorption of ozone where it is densest [m^-1]."""
-_MATCHING = np.fromstring(
-    "0.001368 0.01431 0.13438 0.34828 0.2908 0.09564 0.0049 0.06327 0.2904 0.5945 0.9163 1.0622 0.8544499 0.4479 0.1649 0.04677 "
-    "0.01135916 0.002899327 0.0006900786 0.0001661505 0.00004150994 "
-    "0.000039 0.000396 0.004 0.023 0.06 0.13902 0.323 0.71 0.954 0.995 0.87 0.631 0.381 0.175 0.061 0.017 0.004102 0.001047 "
-    "0.0002492 0.00006 0.00001499 "
-    "0.006450001 0.06785001 0.6456 1.74706 1.6692 0.8129501 0.272 0.07824999 0.0203 0.0039 0.001650001 0.0008 0.00019 0.00002 "
-    "0 0 0 0 0 0 0",
-    sep=" ",
-).reshape(3, -1)
-"""The CIE 1931 observer (CIE 15:2004, table 4)."""
-_STEPS, _NODES = 32, 8
-_LAGUERRE_END = 25.0
+EARTH = 6371.0
+"""Radius of the ground [km]."""
+_TOP = EARTH + 100.0
+_STEPS = 64
+_G = 0.8
+_ALBEDO = 0.3
+"""Of the ground."""
+_SUN = np.array([1.679, 1.828, 1.986, 1.307])[:, None]
+_AIR = np.array([6.605e-3, 1.067e-2, 1.842e-2, 3.156e-2])[:, None]
+_OZONE = np.array([0.04396389, 0.04956067, 0.01708159, 0.001396664])[:, None]
+_HAZE_SCATTERS = np.array([0.02176373, 0.02423042, 0.02865075, 0.03287955])[:, None]
+_HAZE_ABSORBS = np.array([0.3929457, 0.6316244, 1.090458, 1.857606])[:, None] / 1000
+_HAZE_FAR_UP = 2e6 / 1.3681e20
+"""At the ground, and of ozone times a height: coefficients [km^-1] of a clear day."""
+_LOWEST = 0.1 / 1000
+"""Below this height [km] ozone does not thin out any more."""
+_OFTEN = 0.02 * np.array([0.217, 0.347, 0.594, 1.0])[:, None]
+"""What is scattered more than once, under a high sun."""
+_XYZ = np.array(
+    [
+        [53.386917738564668, 43.904844466369358, 1.6137278251608962, 20.762668673810577],
+        [22.981337506691025, 71.347795700053393, 18.422960591455485, 2.3614213523314369],
+        [0.0, 0.10250686796574131, 31.742921188390806, 110.48009643252140],
+    ]
+)
+_SHAPE = (64, 256)
+"""Heights and cosines at which transmittances are tabulated."""
 
 
-def _planck(temperature):
-    """Radiance of a black body [W m^-2 sr^-1 nm^-1]."""
-    # c_1 / pi and c_2 (CODATA 2018), for nanometres.
-    return 1.1910429724e20 / _WAVELENGTHS**5 / np.expm1(1.438776877e7 / (_WAVELENGTHS * temperature))
+def multiple_scattering(elevations, azimuths, sun_elevation, altitude, air, haze, ozone):
+    """Radiance (3, len(elevations), len(azimuths)), linear Rec. 709, unclipped; azimuths from the sun's on [rad].
 
-
-_SUN = np.pi * 0.00464906**2 * _planck(5778.0)
-"""Irradiance of the sun [W m^-2 nm^-1] above the atmosphere: a black body of 5778 K, with this radius [rad]."""
-
-
-def _rgb(spectrum):
-    """(3, ...) of a spectrum (21, ...)."""
-    weights = FROM_XYZ @ _MATCHING * (_WAVELENGTHS[1] - _WAVELENGTHS[0])
-    return np.maximum(np.tensordot(weights, spectrum, 1), 0)
-
-
-def _densities(height):
-    """Of air, aerosols and ozone (3, ...) at a height."""
-    ozone = np.maximum(0, 1 - np.abs(height - 25000) / 15000)
-    return np.stack((np.exp(-height / _RAYLEIGH_HEIGHT), np.exp(-height / _MIE_HEIGHT), ozone))
-
-
-def _to_top(p, d):
-    """How far it is from points p (2 or 3, ...) along d to the top of the atmosphere."""
-    b = (p * d).sum(axis=0)
-    return np.sqrt(np.maximum(b * b - (p * p).sum(axis=0) + TOP * TOP, 0)) - b
-
-
-def _depth_to_top(p, d):
-    """Optical depths (3, ...) from p along d, by densities: Gauss-Laguerre quadrature, as they fall off exponentially."""
-    nodes, weights = np.polynomial.laguerre.laggauss(_NODES)
-    length = _to_top(p, d)
-    total = 0
-    for node, weight in zip(nodes / _LAGUERRE_END, weights * np.exp(nodes) / _LAGUERRE_END):
-        q = p + node * length * d
-        total = total + weight * _densities(np.sqrt((q * q).sum(axis=0)) - EARTH)
-    return total * length
-
-
-def _scattered(d, sun, altitude, density):
-    """Radiance (3, N) of the sky in directions d (3, N)."""
-    mu = np.tensordot(sun, d, 1)
-    rayleigh = 3 / (16 * np.pi) * (1 + mu * mu)
-    mie = 3 * (1 - _G**2) * (1 + mu * mu) / (8 * np.pi * (2 + _G**2) * (1 + _G**2 - 2 * _G * mu) ** 1.5)
-    eye = np.array((0.0, 0.0, EARTH + altitude))[:, None]
-    step = _to_top(eye, d) / _STEPS
-    depth, total = 0, 0
+    altitude [km] of the viewer; air, haze, ozone: densities, 1 as on average. Below the horizon is the haze before a black ground.
+    """
+    densities = air, haze, ozone
+    table = _transmittances(densities)
+    elevation, azimuth = np.meshgrid(elevations, azimuths, indexing="ij")
+    d = np.stack((np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth), np.sin(elevation))).reshape(3, -1)
+    towards = np.array([np.cos(sun_elevation), 0.0, np.sin(sun_elevation)])[:, None]
+    eye = np.array([0.0, 0.0, EARTH + altitude])[:, None]
+    cosine = (d * towards).sum(axis=0)
+    air_phase = 3 / (16 * np.pi) * (1 + cosine**2)
+    haze_phase = (1 - _G * _G) / (4 * np.pi * (1 + _G * _G - 2 * _G * cosine) ** 1.5)
+    step = _length(eye, d) / _STEPS
+    L, through = np.zeros((4, d.shape[1])), np.ones((4, d.shape[1]))
     for i in range(_STEPS):
         p = eye + (i + 0.5) * step * d
-        here = density * _densities(np.sqrt((p * p).sum(axis=0)) - EARTH)
-        depth = depth + step * here
-        b = np.tensordot(sun, p, 1)
-        is_lit = (sun[2] >= 0) | (b * b - (p * p).sum(axis=0) + EARTH * EARTH < 0)
-        way = depth + density * _depth_to_top(p, sun[:, None])
-        extinct = np.multiply.outer(_RAYLEIGH, way[0]) + _MIE_EXTINCTION * way[1] + np.multiply.outer(_OZONE, way[2])
-        scattered = np.multiply.outer(_RAYLEIGH, rayleigh * here[0]) + _MIE * mie * here[1]
-        total = total + np.exp(-extinct) * scattered * (step * is_lit)
-    return _rgb(total * _SUN[:, None])
+        distance = np.sqrt((p * p).sum(axis=0))
+        sun_cosine = (p * towards).sum(axis=0) / distance
+        height = np.maximum(distance - EARTH, 0)
+        by_air, by_haze, extinction = _coefficients(height, densities)
+        direct, often = _transmittance_at(table, height, sun_cosine), _often(table, height, sun_cosine, distance)
+        source = _SUN * (by_air * (air_phase * direct + often) + by_haze * (haze_phase * direct + often))
+        # The integral over the step of what is scattered, weakened on its way back (Hillaire 2015).
+        left = np.exp(-step * extinction)
+        L += through * source * (1 - left) / extinction
+        through *= left
+    return (FROM_XYZ @ _XYZ @ L).reshape(3, *elevation.shape)
 
 
-@lru_cache(maxsize=8)
-def sky_table(elevation, altitude, air, aerosols, ozone, shape=(96, 96)):
-    """Radiance (3, rows, columns) float32 of a sky with the sun at `elevation` [rad], over the upper hemisphere.
-
-    Row r is at the elevation pi/2 (r / (rows - 1))^2, column c at the azimuth pi c / (columns - 1) from the sun. `air`,
-    `aerosols` and `ozone` scale the densities; `altitude` [m] is the eye's.
-    """
-    rows, columns = shape
-    up = 0.5 * np.pi * np.linspace(0, 1, rows)[:, None] ** 2
-    around = np.linspace(0, np.pi, columns)
-    d = np.stack((np.cos(up) * np.cos(around), np.cos(up) * np.sin(around), np.sin(up) + 0 * around))
-    sun = np.array((np.cos(elevation), 0.0, np.sin(elevation)))
-    density = np.array((air, aerosols, ozone))[:, None]
-    parts = [_scattered(d[:, row], sun, min(max(altitude, 1.0), TOP - EARTH - 1), density) for row in range(rows)]
-    return np.stack(parts, axis=1).astype(np.float32)
+def sun_disk(sun_elevation, size, altitude, air, haze, ozone):
+    """Radiance (3,) at the lower and upper edge of the sun, of angular diameter `size`."""
+    solid_angle = 4 * np.pi * np.sin(0.25 * size) ** 2
+    cosines = np.sin(sun_elevation + np.array([-0.5, 0.5]) * size)
+    L = FROM_XYZ @ _XYZ @ (_SUN * _transmittance(np.full(2, altitude), cosines, (air, haze, ozone))) / solid_angle
+    return L[:, 0], L[:, 1]
 
 
-def sun_radiance(elevation, angle, altitude, air, aerosols):
-    """Radiance (3,) of the middle of the sun's disc at `elevation`, seen through air and aerosols; `angle` [rad] is its diameter.
-
-    The mean of its lowest and its highest place; black where all of it has set.
-    """
-    eye = np.array((0.0, 0.0, EARTH + min(max(altitude, 1.0), TOP - EARTH - 1)))
-    if elevation + 0.5 * angle <= 0:
-        return np.zeros(3)
-    up = np.maximum(elevation + 0.5 * angle * np.array((-1.0, 1.0)), 0)
-    way = _depth_to_top(eye[:, None], np.stack((np.cos(up), 0 * up, np.sin(up))))
-    extinct = np.multiply.outer(_RAYLEIGH, way[0] * air) + _MIE_EXTINCTION * way[1] * aerosols
-    return _rgb(_SUN[:, None] * np.exp(-extinct) / (2 * np.pi * (1 - np.cos(0.5 * angle)))).mean(axis=1)
+def _coefficients(height, densities):
+    """[km^-1] (4, N) at heights (N,): scattering by air and by haze, and extinction."""
+    air, haze, ozone = densities
+    by_air = air * _AIR * np.exp(-0.07771971 * height**1.16364243)
+    log = np.log(np.maximum(height, _LOWEST))
+    by_ozone = ozone * _OZONE * np.exp(-5.55555555 * (log - 3.22261) ** 2 - log)
+    density = haze * (np.exp(-height / 0.73) + _HAZE_FAR_UP)
+    by_haze = density * _HAZE_SCATTERS
+    return by_air, by_haze, np.maximum(by_air + by_ozone + by_haze + density * _HAZE_ABSORBS, np.finfo(np.float32).tiny)
 
 
-LIMB = 0.6
-"""How much darker the sun is at its rim: 1 - LIMB (1 - sqrt(1 - r^2)) of the middle at the share r of its radius."""
-MEAN_OF_DISC = 1 - LIMB / 3
-"""The mean of that over the disc."""
+def _length(p, d):
+    """How far rays go from p (3, 1) along d (3, N): to the ground, or to the end of the atmosphere."""
+    b, c = (p * d).sum(axis=0), (p * p).sum(axis=0)
+    to_ground = b * b - c + EARTH**2
+    out = -b + np.sqrt(b * b - c + _TOP**2)
+    return np.where((b < 0) & (to_ground >= 0), -b - np.sqrt(np.maximum(to_ground, 0)), out)
+
+
+def _transmittance(height, cosine, densities):
+    """(4, N) from heights [km] (N,) out of the atmosphere, at a cosine from the zenith; the ground is in nobody's way."""
+    r = EARTH + height
+    step = (-r * cosine + np.sqrt((r * cosine) ** 2 - r * r + _TOP**2)) / _STEPS
+    depth = 0
+    for i in range(_STEPS):
+        t = (i + 0.5) * step
+        distance = np.sqrt(r * r + 2 * r * cosine * t + t * t)
+        depth = depth + step * _coefficients(np.maximum(distance - EARTH, 0), densities)[2]
+    return np.exp(-depth)
+
+
+def _transmittances(densities):
+    """(4, 64 * 256): by height, from the ground up, and cosine, from -1 to 1."""
+    height, cosine = np.meshgrid(np.linspace(0, _TOP - EARTH, _SHAPE[0]), np.linspace(-1, 1, _SHAPE[1]), indexing="ij")
+    return _transmittance(height.ravel(), cosine.ravel(), densities)
+
+
+def _transmittance_at(table, height, cosine):
+    """(4, N), interpolated."""
+    y = np.clip(height / (_TOP - EARTH), 0, 1) * (_SHAPE[0] - 1)
+    x = np.clip(0.5 * cosine + 0.5, 0, 1) * (_SHAPE[1] - 1)
+    row, column = (np.minimum(a.astype(np.intp), n - 2) for a, n in zip((y, x), _SHAPE))
+    a, b = y - row, x - column
+    at = row * _SHAPE[1] + column
+    below, above = ((1 - b) * table.take(at + k, axis=1) + b * table.take(at + k + 1, axis=1) for k in (0, _SHAPE[1]))
+    return (1 - a) * below + a * above
+
+
+def _often(table, height, sun_cosine, distance):
+    """What reaches a height (N,) after more than one scattering, by any way, per irradiance of the sun (4, N)."""
+    ground = 2 * np.pi * (1 - np.sqrt(np.maximum(1 - (EARTH / distance) ** 2, 0)))
+    zenith = np.ones(1)
+    up = _transmittance_at(table, np.zeros(1), zenith) / _transmittance_at(table, height, np.ones_like(height))
+    reflected = ground / (4 * np.pi) * _ALBEDO / np.pi * _transmittance_at(table, np.zeros_like(height), sun_cosine) * up * sun_cosine
+    return _OFTEN / (1 + 5 * np.exp(-17.92 * sun_cosine)) + reflected

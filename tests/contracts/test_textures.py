@@ -29,6 +29,7 @@ from glanz.engine import (
     NormalMap,
     ObjectValue,
     SceneError,
+    SkyTexture,
     Tangent,
     VectorTransform,
     VoronoiTexture,
@@ -43,6 +44,7 @@ from glanz.engine.scene.coordinates import GENERATED, UV
 from glanz.engine.scene.points import OnPlane, Probes, average_of
 from glanz.engine.scene.textured import folded, with_inner
 from glanz.engine.textures.gradient import _SHAPES
+from glanz.engine.textures.sky import MODELS
 from glanz.engine.textures.wave import _PROFILES as PROFILES, _SHAPES as SHAPES
 from glanz.tests import helpers as h
 from glanz.tests.contracts.converters import CONVERTERS, REFUSED, grows_beyond_numbers
@@ -94,6 +96,7 @@ EXAMPLES = {
         *(GaborTexture(dimensions=3, anisotropy=0.5, output=output) for output in ("value", "phase", "intensity")),
     ],
     "gradient": [GradientTexture(shape) for shape in _SHAPES],
+    "sky": [SkyTexture(model, has_disk=False, air=0.1, haze=0.1) for model in MODELS],
     "linear": [
         LinearTexture((IMAGES[0], NoiseTexture(is_normalized=False)), ((0.5, -0.25, 1.0), (0.1, 2.0, -1.0)), (0.1, 0.2, 0.3)),
         LinearTexture((ImageTexture(BRIGHT),), ((0.5, 0.5, 0.5),), is_clipped=True),

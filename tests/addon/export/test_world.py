@@ -128,26 +128,6 @@ def test_a_missing_picture_is_magenta_and_named():
     assert blender.export()[1] == ("the image 'lost' is missing and is rendered magenta: world 'World.001'",)
 
 
-def test_the_sun_of_a_sky_is_a_light():
-    tree = blender.set_world((0.3, 0.3, 0.3)).node_tree
-    background = next(node for node in tree.nodes if node.type == "BACKGROUND")
-    sky = tree.nodes.new("ShaderNodeTexSky")
-    kinds = [e.identifier for e in sky.bl_rna.properties["sky_type"].enum_items]
-    sky.sky_type = "SINGLE_SCATTERING" if "SINGLE_SCATTERING" in kinds else "NISHITA"
-    sky.sun_elevation, sky.sun_rotation = 0.5, 0.25
-    tree.links.new(sky.outputs["Color"], background.inputs["Color"])
-    background.inputs["Strength"].default_value = 0.1
-    scene, warnings = blender.export()
-    (sun,) = scene.lights
-    assert warnings == ()
-    assert sun.angle == pytest.approx(sky.sun_size)
-    assert sun.towards == pytest.approx((np.cos(0.5) * np.sin(0.25), np.cos(0.5) * np.cos(0.25), np.sin(0.5)))
-    background.inputs["Strength"].default_value = 0.2
-    np.testing.assert_allclose(blender.export()[0].lights[0].irradiance, 2 * np.array(sun.irradiance), rtol=1e-6)
-    sky.sun_disc = False
-    assert blender.export()[0].lights == ()
-
-
 @pytest.mark.skipif(bpy.app.version >= (5, 0), reason="from Blender 5.0 on every world has nodes")
 def test_without_nodes_the_viewport_colour_counts():
     world = bpy.data.worlds.new("Plain")
