@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from ..maths.facing import facing_fresnel
-from ..maths.vectors import dot
+from ..maths.vectors import as_vector, dot
 from . import registry
 
 
@@ -26,5 +26,5 @@ class Fresnel:
         pass
 
     def eval(self, at):
-        n = at.surface.ns if self.normal is None else at.value(self.normal)
+        n = at.surface.ns if self.normal is None else as_vector(at.value(self.normal))
         return facing_fresnel(dot(at.d, n), at.value(self.ior)[0], at.surface.is_front)[None]

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..errors import SceneError
 from ..maths.facing import facing_fresnel, schlick_facing
-from ..maths.vectors import dot
+from ..maths.vectors import as_vector, dot
 from . import registry
 
 
@@ -33,7 +33,7 @@ class LayerWeight:
             raise SceneError(f"material '{owner}': output of its layer weight is '{self.output}', allowed: facing, fresnel")
 
     def eval(self, at):
-        cos = dot(at.d, at.surface.ns if self.normal is None else at.value(self.normal))
+        cos = dot(at.d, at.surface.ns if self.normal is None else as_vector(at.value(self.normal)))
         blend = at.value(self.blend)[0]
         if self.output == "facing":
             return schlick_facing(cos, blend)[None]

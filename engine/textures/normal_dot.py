@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..maths.facing import unit
-from ..maths.vectors import dot
+from ..maths.vectors import as_vector, dot
 from . import registry
 
 
@@ -24,4 +24,4 @@ class NormalDot:
         pass
 
     def eval(self, at):
-        return dot(unit(np.array(self.direction, np.float32)[:, None]), unit(at.value(self.vector)))[None]
+        return dot(unit(np.array(self.direction, np.float32)[:, None]), unit(as_vector(at.value(self.vector))))[None]
