@@ -7,12 +7,14 @@ Build a `Scene` from arrays, ask `Requirements.of` what it needs, iterate `rende
 from . import bsdfs, cameras, filters, integrators, lights, passes, samplers, textures  # noqa: F401 - fills the registries
 from .bsdfs.blinn_phong import BlinnPhong
 from .bsdfs.dielectric import Dielectric
+from .bsdfs.gloss import Gloss
 from .bsdfs.lambert import Lambert
 from .bsdfs.lambert_transmission import LambertTransmission
 from .bsdfs.mirror import Mirror
 from .bsdfs.phong import Phong
 from .bsdfs.phong_lecture import PhongLecture
 from .bsdfs.phong_transmission import PhongTransmission
+from .bsdfs.rough_refraction import RoughRefraction
 from .bsdfs.transparent import Transparent
 from .cameras.orthographic import OrthographicCamera
 from .cameras.panorama import PanoramaCamera
@@ -51,6 +53,7 @@ from .textures.fresnel import Fresnel
 from .textures.gabor import GaborTexture
 from .textures.gamma import Gamma
 from .textures.geometry import Geometry
+from .textures.ggx_albedo import GgxAlbedo
 from .textures.gradient import GradientTexture
 from .textures.hue_saturation import HueSaturation
 from .textures.image import ImageTexture
@@ -58,6 +61,7 @@ from .textures.invert import Invert
 from .textures.layer_weight import LayerWeight
 from .textures.light_path import LightPath
 from .textures.linear import LinearTexture
+from .textures.lobe_exponent import LobeExponent
 from .textures.luminance import Luminance
 from .textures.magic import MagicTexture
 from .textures.map_range import MapRange
@@ -68,6 +72,7 @@ from .textures.noise import NoiseTexture
 from .textures.normal_dot import NormalDot
 from .textures.normal_map import NormalMap
 from .textures.object_value import ObjectValue
+from .textures.relative_index import RelativeIndex
 from .textures.separate import Separate
 from .textures.sky import SkyTexture
 from .textures.tangent import Tangent
@@ -113,7 +118,9 @@ __all__ = [
     "GaborTexture",
     "Gamma",
     "Geometry",
+    "GgxAlbedo",
     "GlanzError",
+    "Gloss",
     "GradientTexture",
     "HueSaturation",
     "Image",
@@ -125,6 +132,7 @@ __all__ = [
     "Lens",
     "LightPath",
     "LinearTexture",
+    "LobeExponent",
     "Luminance",
     "MagicTexture",
     "MapRange",
@@ -150,7 +158,9 @@ __all__ = [
     "PhongTransmission",
     "PointLight",
     "Progress",
+    "RelativeIndex",
     "Requirements",
+    "RoughRefraction",
     "Scene",
     "SceneError",
     "Separate",

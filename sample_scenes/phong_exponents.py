@@ -11,8 +11,9 @@ COPPER = (0.93, 0.56, 0.4)
 
 
 def roughness(exponent):
-    """Blender's roughness for a Phong exponent n: n = 2 / alpha^2 - 2 with alpha = roughness^2."""
-    return (2 / (exponent + 2)) ** 0.25
+    """Blender's roughness whose lobe has the exponent n: n + 1 = ln 2 / ln((1 + 3 a) / (1 + a)) with a = roughness^4."""
+    q = 2 ** (1 / (exponent + 1))
+    return ((q - 1) / (3 - q)) ** 0.25
 
 
 def backdrop(material, half_width=14.0, front=-8.0, back=3.2, bend=1.6, top=9.0, steps=24):

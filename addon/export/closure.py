@@ -4,14 +4,19 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...engine import Dielectric, Lambert, LambertTransmission, Mirror, Phong, PhongLecture, Transparent, albedo_of, textures_of
+from ...engine import (
+    GgxAlbedo,
+    Lambert,
+    LambertTransmission,
+    LobeExponent,
+    RelativeIndex,
+    RoughRefraction,
+    Transparent,
+    albedo_of,
+    textures_of,
+)
 from .colours import WHITE, added, as_texture, cut, inverted, times, varies
-
-SHARPEST_EXPONENT = 1e6
-"""The engine's sharpest Phong lobe, 0.1 degrees wide; what would be sharper (roughness below 0.0376) is a mirror."""
-
-EDGELESS_EXPONENT = 4.0
-"""From here on the edge of a lobe, a right angle from its middle, is too dark to be seen; roughness 0.76."""
+from .principled import boundary, is_smooth, reflected
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,28 +77,6 @@ def merged(lobes):
     return tuple(with_colours(shape, total) for shape, total in sums.items() if any(varies(c) or any(c) for c in total))
 
 
-def phong_exponent(roughness):
-    """The Phong exponent n = 2 / alpha^2 - 2 with alpha = roughness^2, from inf at 0 to 0 at 1 of Blender's roughness."""
-    alpha2 = min(max(roughness, 0.0), 1.0) ** 4
-    return 2 / alpha2 - 2 if alpha2 > 0 else np.inf
-
-
-def glossy_lobes(colour, roughness):
-    """The lobes of Blender's `roughness`, a tuple: Phong's of 1975, or a mirror where that would be too sharp.
-
-    Like Blender's it is as bright at grazing as seen straight on, but for what of it lies below the horizon; the modified
-    lobe falls with the cosine, so that metals had dark rims. Its factor makes `colour` the share that is reflected. As it
-    grows wide it ends at an edge of shadow, and gives way to the modified lobe, which is Lambert's at roughness 1.
-    """
-    n = phong_exponent(roughness)
-    if n > SHARPEST_EXPONENT:
-        return (Mirror(colour),)
-    share = min(n / EDGELESS_EXPONENT, 1.0)
-    sharp = PhongLecture(times(colour, share * (n + 1) / (n + 2)), n)
-    wide = Phong(times(colour, 1 - share), n)
-    return tuple(lobe for lobe, part in ((sharp, share), (wide, 1 - share)) if part > 0)
-
-
 def diffuse(colour):
     """Ideal diffuse reflection of `colour`."""
     return Closure((Lambert(as_texture(colour)),))
@@ -104,14 +87,27 @@ def translucent(colour):
     return Closure((LambertTransmission(as_texture(colour)),))
 
 
-def glossy(colour, roughness):
-    """A glossy lobe of `colour`."""
-    return Closure(glossy_lobes(as_texture(colour), roughness))
+def glossy(colour, roughness, preserves=True):
+    """A rough mirror of `colour`; what is reflected twice is lost unless it `preserves` energy."""
+    if is_smooth(roughness):
+        return Closure((reflected(as_texture(colour), roughness),))
+    return Closure((reflected(GgxAlbedo(roughness, f0=as_texture(colour), kind="mirror", preserves=preserves), roughness),))
 
 
-def glass(colour, ior):
-    """A smooth boundary that tints what it reflects and what passes it by `colour`."""
-    return Closure((Dielectric(ior, as_texture(colour), as_texture(colour)),))
+def metal(base, tint, roughness):
+    """A rough metal that reflects `base` when seen from above, and `tint` at 82 degrees."""
+    return Closure((reflected(GgxAlbedo(roughness, f0=cut(base), tint=cut(tint)), roughness),))
+
+
+def glass(colour, ior, roughness=0.0):
+    """A boundary that tints what it reflects and what passes it by `colour`."""
+    return Closure(boundary(as_texture(colour), as_texture(colour), roughness, ior))
+
+
+def refraction(colour, ior, roughness):
+    """The same, which reflects nothing."""
+    eta = RelativeIndex(ior)
+    return Closure((RoughRefraction(as_texture(colour), LobeExponent(roughness, eta), eta),))
 
 
 def transparent(colour):

@@ -40,7 +40,7 @@ def _scaled(value, factor):
 def added(a, b):
     """The sum of two values, as a colour."""
     if not (varies(a) or varies(b)):
-        return _constant(np.add(a, b))
+        return _constant(np.broadcast_to(np.add(a, b), 3))
     for one, other in ((a, b), (b, a)):
         if not varies(one) and not np.any(one):
             return as_texture(other)
@@ -53,6 +53,11 @@ def cut(value):
     if varies(value):
         return LinearTexture((value,), (1.0,), is_clipped=True)
     return _constant(np.clip(value, 0, 1)) if isinstance(value, tuple) else min(max(value, 0.0), 1.0)
+
+
+def root(value):
+    """The square root of a colour; of what varies, of its average."""
+    return _constant(np.sqrt(np.maximum(np.broadcast_to(typical(value), 3), 0)))
 
 
 def inverted(value):

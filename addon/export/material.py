@@ -11,7 +11,7 @@ from .findings import Findings
 from .inside import absorbs, medium_of, with_dispersion
 from .lecture import is_lecture, lecture_medium, lecture_surface
 from .nodes import has_nodes, output_node
-from .principled import principled_lobes
+from .principled import Layers
 from .relief import displacement_of
 from .shaders import surface_of
 from .values import Reader
@@ -19,7 +19,7 @@ from .values import Reader
 BRIGHTEST = 1e30
 """Radiance [W m^-2 sr^-1] beyond which products no longer fit into single precision."""
 
-DEFAULT = Material(name="Default", lobes=principled_lobes((0.8, 0.8, 0.8), 0.0, 0.5, 1.5, 0.5))
+DEFAULT = Material(name="Default", lobes=Layers().lobes()[0])
 """What faces without a material wear: Blender's default Principled BSDF."""
 
 

@@ -1,57 +1,115 @@
-"""The Principled BSDF as a diffuse, a glossy and a clear lobe: pure functions of its numbers.
+"""The Principled BSDF as lobes whose shares are those of Blender's layers, seen from wherever a ray looks.
 
-Blender's model is a metal (share m, colour c) beside what is no metal: glass (share t), or a dielectric coat over a
-diffuse base of the same colour. The engine's Phong and Lambert lobes have reflectances that do not depend on the angle,
-so the coat reflects its average over a cosine-weighted hemisphere F, and the base receives the rest:
+From the top: sheen, coat, emission, then metal (share m) beside what is no metal: glass (share t of the rest), or a dielectric
+over a diffuse base. Each layer reflects its directional albedo E, that of GGX (`GgxAlbedo`), and what lies below has the rest:
 
-    glossy   m c + (1 - m) (1 - t) F tint
-    diffuse  (1 - m) (1 - t) (1 - F) c         (F: its largest channel, so that nothing is reflected twice)
-    clear    (1 - m) t, exact Fresnel; what passes is tinted by sqrt(c), as light passes twice
+    coat      w E_coat,                then w <- w (1 - E_coat)
+    metal     w m E_F82(base)
+    glass     w (1 - m) t, of which V is reflected and (1 - V) sqrt(base) passes
+    glossy    w (1 - m) (1 - t) E
+    diffuse   w (1 - m) (1 - t) (1 - E) base
 
-Their sum is at most 1 for c and tint in [0, 1]: m c + (1 - m) (F + (1 - F) c) <= 1 where t = 0. What is lost against
-Blender is the brighter rim at grazing angles; what is kept is the light that leaves the surface under even light.
+So no more leaves than arrives, whatever the angle. The lobes are `Gloss` and `RoughRefraction`, as wide as GGX's, see
+`engine.maths.ggx`; where the roughness is so small that the sharpest is too wide, the mirror and the exact dielectric.
+They know from where they are seen, but not from where they are lit, so they are not reciprocal.
 """
 
-from functools import lru_cache
+from dataclasses import dataclass
 
-import numpy as np
+from ...engine import Dielectric, GgxAlbedo, Gloss, Lambert, LayerWeight, LobeExponent, Mirror, RelativeIndex, RoughRefraction, folded
+from .colours import WHITE, added, as_texture, cut, inverted, root, times, varies
 
-from ...engine import Dielectric, Lambert
-from .closure import glossy_lobes
-from .colours import added, as_texture, cut, times, typical, varies
+SMOOTHEST = 0.024
+"""Blender's roughness below which a lobe would be sharper than the engine's sharpest, 0.1 degrees wide."""
+_SHEEN = 0.3
+"""What a sheen of weight 1 reflects at the rim; Blender's fibres of medium roughness reflect about as much."""
 
-_ANGLES = 2048
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Layers:
+    """The inputs of a Principled BSDF; all but `ior`, `specular_level` and `coat_ior` may be textures."""
+
+    base: object = (0.8, 0.8, 0.8)
+    metallic: object = 0.0
+    roughness: object = 0.5
+    ior: float = 1.5
+    specular_level: float = 0.5
+    tint: object = WHITE
+    transmission: object = 0.0
+    coat: object = 0.0
+    coat_roughness: object = 0.03
+    coat_ior: float = 1.5
+    coat_tint: object = WHITE
+    sheen: object = 0.0
+    sheen_tint: object = WHITE
+
+    def lobes(self):
+        """(lobes, what is left, a colour or texture, of light that is emitted below sheen and coat)."""
+        lobes, left = [], WHITE
+        if _is_there(self.sheen):
+            # Next to the fibres' own lobe: it is brightest at the rim, and diffuse.
+            sheen = times(times(cut(self.sheen), cut(self.sheen_tint)), times(LayerWeight(0.5), _SHEEN))
+            lobes.append(Lambert(sheen))
+            left = times(left, inverted(sheen))
+        if _is_there(self.coat):
+            weight = cut(self.coat)
+            albedo = GgxAlbedo(self.coat_roughness, self.coat_ior, kind="dielectric")
+            lobes.append(reflected(times(left, times(weight, albedo)), self.coat_roughness))
+            tinted = added(inverted(weight), times(weight, cut(self.coat_tint)))
+            left = times(times(left, inverted(times(weight, albedo))), tinted)
+        return (*lobes, *self._below(left)), left
+
+    def _below(self, left):
+        m, t = cut(self.metallic), cut(self.transmission)
+        base = as_texture(self.base) if varies(self.base) else cut(self.base)
+        if _is_there(m):
+            albedo = GgxAlbedo(self.roughness, f0=base, tint=self.tint, kind="metal")
+            yield reflected(times(times(left, m), albedo), self.roughness)
+        left = times(left, inverted(m))
+        if _is_there(t):
+            clear = times(left, t)
+            yield from boundary(clear, times(clear, root(base)), self.roughness, self.ior)
+        left = times(left, inverted(t))
+        if not _is_there(left):
+            return
+        ior = effective_ior(self.ior, self.specular_level)
+        if ior > 1:
+            coat = GgxAlbedo(self.roughness, ior, tint=self.tint, kind="dielectric")
+            yield reflected(times(left, coat), self.roughness)
+            is_white = not varies(self.tint) and tuple(self.tint) == WHITE
+            rest = GgxAlbedo(self.roughness, ior, tint=self.tint, kind="dielectric", is_rest=True)
+            left = times(left, inverted(coat) if is_white else rest)
+        yield Lambert(times(left, base))
 
 
-def principled_lobes(base, metallic, roughness, ior, specular_level, tint=(1.0, 1.0, 1.0), transmission=0.0):
-    """The lobes of a Principled BSDF, diffuse, glossy and, where it transmits, clear; all but `ior` in [0, 1].
+def reflected(colour, roughness):
+    """A glossy lobe of `colour`, all that it reflects, for Blender's `roughness`."""
+    return Mirror(colour) if is_smooth(roughness) else Gloss(colour, folded(LobeExponent(roughness)))
 
-    The base colour may be a texture; what passes is tinted by its average.
-    """
-    base = as_texture(base) if varies(base) else cut(base)
-    m = min(max(metallic, 0.0), 1.0)
-    coat = average_fresnel(effective_ior(ior, specular_level)) * np.clip(np.array(tint, np.float64), 0, 1)
-    t = min(max(transmission, 0.0), 1.0)
-    lambert = times(base, (1 - m) * (1 - t) * (1 - coat.max())) if m * t < 1 else (0.0, 0.0, 0.0)
-    coat = (1 - m) * (1 - t) * coat
-    glossy = added(times(base, m), coat) if m > 0 else tuple(coat.tolist())
-    clear = (1 - m) * t
-    lobes = (Lambert(lambert), *glossy_lobes(glossy, roughness))
-    return (*lobes, Dielectric(ior, (clear,) * 3, times(np.sqrt(typical(base)), clear))) if clear > 0 else lobes
+
+def boundary(reflectance, transmittance, roughness, ior):
+    """The lobes of glass, which tint what they reflect and what passes; two, unless it is smooth."""
+    if is_smooth(roughness):
+        return (Dielectric(ior, reflectance, transmittance),)
+    eta = RelativeIndex(ior)
+    share = GgxAlbedo(roughness, eta, kind="boundary")
+    return (
+        reflected(times(reflectance, share), roughness),
+        RoughRefraction(times(transmittance, inverted(share)), LobeExponent(roughness, eta), eta),
+    )
+
+
+def is_smooth(roughness):
+    """Whether Blender's `roughness` is that of a mirror."""
+    return not varies(roughness) and roughness < SMOOTHEST
 
 
 def effective_ior(ior, specular_level):
     """The index of refraction whose reflection at normal incidence is 2 * specular_level times that of `ior` (Blender 4.0 on)."""
     f0 = ((ior - 1) / (ior + 1)) ** 2 * 2 * max(specular_level, 0.0)
-    root = min(f0, 0.99) ** 0.5
-    return (1 + root) / (1 - root)
+    amplitude = min(f0, 0.99) ** 0.5
+    return (1 + amplitude) / (1 - amplitude)
 
 
-@lru_cache(maxsize=256)
-def average_fresnel(ior):
-    """Share of cosine-weighted light that a smooth dielectric with `ior` >= 1 reflects: integral of F(cos) 2 cos dcos."""
-    cos = (np.arange(_ANGLES) + 0.5) / _ANGLES
-    cos_t = np.sqrt(1 - (1 - cos * cos) / (ior * ior))
-    across = (cos - ior * cos_t) / (cos + ior * cos_t)
-    along = (ior * cos - cos_t) / (ior * cos + cos_t)
-    return float(np.mean((across * across + along * along) * cos))
+def _is_there(value):
+    return varies(value) or (any(value) if isinstance(value, tuple) else value > 0)

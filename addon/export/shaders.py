@@ -6,7 +6,7 @@ from . import closure
 from .closure import Closure
 from .colours import varies
 from .nodes import input_by_identifier
-from .principled import principled_lobes
+from .principled import Layers
 from .relief import relief_of
 from .values import Reader
 
@@ -58,19 +58,18 @@ def _translucent(reader, node):
 
 
 def _glossy(reader, node):
-    if reader.number(node, "Anisotropy") != 0:
-        reader.note("Anisotropy of Glossy BSDF is left out")
-    return _bent(reader, node, closure.glossy(reader.value(node, "Color"), reader.number(node, "Roughness")))
+    _without_anisotropy(reader, node, "Anisotropy")
+    preserves = getattr(node, "distribution", "MULTI_GGX") == "MULTI_GGX"
+    return _bent(reader, node, closure.glossy(reader.value(node, "Color"), reader.value(node, "Roughness"), preserves))
 
 
 def _glass(reader, node):
-    if reader.is_linked(node, "Roughness") or reader.number(node, "Roughness") > 0:
-        reader.note("Roughness of Glass BSDF is left out, it is rendered smooth")
-    return _bent(reader, node, closure.glass(reader.value(node, "Color"), _ior(reader, node)))
+    values = reader.value(node, "Color"), _ior(reader, node), reader.value(node, "Roughness")
+    return _bent(reader, node, closure.glass(*values))
 
 
-def _ior(reader, node):
-    ior = reader.number(node, "IOR", 1.5)
+def _ior(reader, node, identifier="IOR", default=1.5):
+    ior = reader.number(node, identifier, default)
     allowed = min(max(ior, _IORS[0]), _IORS[1])
     if allowed != ior:
         reader.note("an IOR is beyond 0.001 to 1000 and is cut off")
@@ -95,10 +94,32 @@ def _mix(reader, node):
     return closure.mix(reader.value(node, "Fac", 0.5), first, second)
 
 
+def _refraction(reader, node):
+    values = reader.value(node, "Color"), _ior(reader, node, default=1.45), reader.value(node, "Roughness")
+    return _bent(reader, node, closure.refraction(*values))
+
+
+def _metallic(reader, node):
+    if getattr(node, "fresnel_type", "F82") != "F82":
+        reader.note("Metallic BSDF by extinction is rendered by its Base Color and Edge Tint")
+    values = reader.value(node, "Base Color"), reader.value(node, "Edge Tint", _WHITE), reader.value(node, "Roughness", 0.5)
+    _without_anisotropy(reader, node, "Anisotropy")
+    return _bent(reader, node, closure.metal(*values))
+
+
+def _holdout(reader, node):
+    reader.note("Holdout is rendered black, the picture is not transparent there")
+    return Closure()
+
+
+def _without_anisotropy(reader, node, identifier):
+    if reader.is_linked(node, identifier) or reader.number(node, identifier) != 0:
+        reader.note(f"Anisotropy of {node.bl_label} is left out")
+
+
 _LEFT_OUT = {
     "Subsurface Weight": "Subsurface of Principled BSDF is rendered as diffuse",
-    "Coat Weight": "Coat of Principled BSDF is left out",
-    "Sheen Weight": "Sheen of Principled BSDF is left out",
+    "Sheen Weight": "Sheen of Principled BSDF is rendered as diffuse, brighter towards the rim",
     "Anisotropic": "Anisotropy of Principled BSDF is left out",
     "Thin Film Thickness": "Thin film of Principled BSDF is left out",
     "Thin Wall": "Thin wall of Principled BSDF is left out",
@@ -110,22 +131,25 @@ def _principled(reader, node):
     for identifier, note in _LEFT_OUT.items():
         if reader.is_linked(node, identifier) or reader.number(node, identifier):
             reader.note(note)
-    transmission = reader.number(node, "Transmission Weight")
-    if transmission > 0 and reader.number(node, "Roughness") > 0:
-        reader.note("Roughness of what passes a Principled BSDF is left out, it is rendered smooth")
-    base = reader.value(node, "Base Color")
-    if transmission > 0 and varies(base):
+    base, transmission = reader.value(node, "Base Color"), reader.value(node, "Transmission Weight")
+    if varies(base) and (varies(transmission) or transmission > 0):
         reader.note("what passes a Principled BSDF is tinted by the average of the texture of its Base Color")
-    lobes = principled_lobes(
-        base,
-        reader.number(node, "Metallic"),
-        reader.number(node, "Roughness"),
-        _ior(reader, node),
-        reader.number(node, "Specular IOR Level", 0.5),
-        reader.colour(node, "Specular Tint", _WHITE),
-        transmission,
-    )
-    shine = closure.emission(reader.value(node, "Emission Color"), reader.value(node, "Emission Strength"))
+    lobes, left = Layers(
+        base=base,
+        metallic=reader.value(node, "Metallic"),
+        roughness=reader.value(node, "Roughness", 0.5),
+        ior=_ior(reader, node),
+        specular_level=reader.number(node, "Specular IOR Level", 0.5),
+        tint=reader.value(node, "Specular Tint", _WHITE),
+        transmission=transmission,
+        coat=reader.value(node, "Coat Weight"),
+        coat_roughness=reader.value(node, "Coat Roughness", 0.03),
+        coat_ior=_ior(reader, node, "Coat IOR"),
+        coat_tint=reader.value(node, "Coat Tint", _WHITE),
+        sheen=reader.value(node, "Sheen Weight"),
+        sheen_tint=reader.value(node, "Sheen Tint", _WHITE),
+    ).lobes()
+    shine = closure.emission(reader.value(node, "Emission Color"), reader.value(node, "Emission Strength")).scaled(left)
     return closure.with_alpha(reader.value(node, "Alpha", 1.0), _bent(reader, node, Closure(lobes, shine.emission)))
 
 
@@ -134,10 +158,13 @@ _TABLE = {
     "BSDF_DIFFUSE": _diffuse,
     "BSDF_GLOSSY": _glossy,
     "BSDF_GLASS": _glass,
+    "BSDF_REFRACTION": _refraction,
+    "BSDF_METALLIC": _metallic,
     "BSDF_TRANSLUCENT": _translucent,
     "BSDF_TRANSPARENT": _transparent,
     "EMISSION": _emission,
     "BACKGROUND": _emission,
+    "HOLDOUT": _holdout,
     "MIX_SHADER": _mix,
     "ADD_SHADER": _add,
 }

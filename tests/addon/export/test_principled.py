@@ -1,50 +1,86 @@
-"""The Principled split keeps energy and meets the limits that have names."""
+"""The layers of the Principled BSDF keep energy at every angle, and meet the limits that have names."""
 
 import itertools
 
 import numpy as np
 import pytest
+from hypothesis import given, settings, strategies as st
 
-from glanz.addon.export.principled import average_fresnel, effective_ior, principled_lobes
-from glanz.engine import albedo_of
+from glanz.addon.export.principled import Layers, effective_ior
+from glanz.engine import Dielectric, GgxAlbedo, Gloss, Lambert, Mirror
+from glanz.engine.scene.points import OnPlane
 
-STEPS = (0.0, 0.3, 1.0)
-
-
-@pytest.mark.parametrize(("metallic", "level"), list(itertools.product(STEPS, STEPS)))
-def test_the_lobes_never_reflect_more_than_arrives(metallic, level):
-    for base, ior, tint in itertools.product(((0, 0, 0), (1, 1, 1), (1, 0.5, 0)), (1.0, 1.5, 4.0), ((1, 1, 1), (1, 0, 0))):
-        total = np.sum([albedo_of(lobe) for lobe in principled_lobes(base, metallic, 0.5, ior, level, tint)], axis=0)
-        assert (total <= 1 + 1e-12).all()
-        assert (total >= 0).all()
+POINTS = 64
+UNIT = st.floats(0, 1, width=32)
+COLOUR = st.tuples(UNIT, UNIT, UNIT)
 
 
-def test_a_white_base_under_a_white_coat_reflects_everything():
-    lobes = principled_lobes((1, 1, 1), 0.0, 0.5, 1.5, 0.5)
-    assert np.sum([albedo_of(lobe) for lobe in lobes], axis=0) == pytest.approx([1, 1, 1])
+def sent_on(lobes):
+    """What all `lobes` reflect and pass, (3, N), looked at from all around."""
+    at = OnPlane(np.zeros((3, POINTS), np.float32))
+    colours = (at.value(getattr(lobe, "reflectance", None) or getattr(lobe, "transmittance", None)) for lobe in lobes)
+    return sum(np.broadcast_to(colour, (3, POINTS)) for colour in colours)
+
+
+@settings(max_examples=300, deadline=None, derandomize=True)
+@given(
+    colours=st.tuples(COLOUR, COLOUR, COLOUR, COLOUR),
+    shares=st.tuples(*[UNIT] * 6),
+    iors=st.tuples(st.floats(1, 4), st.floats(1, 4)),
+    level=UNIT,
+)
+def test_no_layers_send_on_more_than_arrives(colours, shares, iors, level):
+    base, tint, coat_tint, sheen_tint = colours
+    metallic, roughness, transmission, coat, coat_roughness, sheen = shares
+    lobes, _ = Layers(
+        base=base,
+        tint=tint,
+        coat_tint=coat_tint,
+        sheen_tint=sheen_tint,
+        metallic=metallic,
+        roughness=roughness,
+        transmission=transmission,
+        coat=coat,
+        coat_roughness=coat_roughness,
+        sheen=sheen,
+        ior=iors[0],
+        coat_ior=iors[1],
+        specular_level=level,
+    ).lobes()
+    total = sent_on(lobes)
+    assert np.isfinite(total).all()
+    assert (total >= 0).all()
+    assert total.max() <= 1 + 1e-5
+
+
+@pytest.mark.parametrize(
+    ("metallic", "transmission", "coat", "roughness"), list(itertools.product((0.0, 1.0), (0.0, 1.0), (0.0, 1.0), (0.0, 0.25, 0.5, 1.0)))
+)
+def test_what_is_white_sends_on_everything(metallic, transmission, coat, roughness):
+    """The furnace, at every angle."""
+    white = Layers(base=(1.0, 1.0, 1.0), metallic=metallic, transmission=transmission, coat=coat, roughness=roughness)
+    assert sent_on(white.lobes()[0]) == pytest.approx(1, abs=1e-5)
+
+
+def test_a_base_that_ignores_its_coat_is_caught():
+    lobes, _ = Layers(base=(1.0, 1.0, 1.0)).lobes()
+    assert sent_on((*lobes[:-1], Lambert((1.0, 1.0, 1.0)))).max() > 1.01
 
 
 def test_a_metal_is_glossy_only():
-    diffuse, glossy = principled_lobes((0.9, 0.5, 0.1), 1.0, 0.5, 1.5, 0.5)
-    assert diffuse.reflectance == (0, 0, 0)
-    assert albedo_of(glossy) == pytest.approx((0.9, 0.5, 0.1))
+    (glossy,) = Layers(base=(0.9, 0.5, 0.1), metallic=1.0).lobes()[0]
+    assert type(glossy) is Gloss
+    assert type(glossy.reflectance) is GgxAlbedo
 
 
 def test_without_specular_it_is_diffuse_only():
-    diffuse, glossy = principled_lobes((0.9, 0.5, 0.1), 0.0, 0.5, 1.5, 0.0)
-    assert diffuse.reflectance == pytest.approx((0.9, 0.5, 0.1))
-    assert albedo_of(glossy) == (0, 0, 0)
+    (diffuse,) = Layers(base=(0.9, 0.5, 0.1), specular_level=0.0).lobes()[0]
+    assert diffuse == Lambert((0.9, 0.5, 0.1))
 
 
-@pytest.mark.parametrize("n", [1.1, 1.33, 1.5, 2.0, 4.0])
-def test_average_fresnel_is_walshs_closed_form(n):
-    """Walsh 1926, as in Duntley 1942: the reflectance of a smooth surface under even light, 0.0918 for glass of 1.5."""
-    b = (n * n - 1) ** 2 / (n * n + 1) ** 3 * n * n * np.log((n - 1) / (n + 1))
-    c = 2 * n**3 * (n * n + 2 * n - 1) / ((n * n + 1) * (n**4 - 1))
-    d = 8 * n**4 * (n**4 + 1) / ((n * n + 1) * (n**4 - 1) ** 2) * np.log(n)
-    walsh = 0.5 + (n - 1) * (3 * n + 1) / (6 * (n + 1) ** 2) + b - c + d
-    assert average_fresnel(n) == pytest.approx(walsh, abs=1e-5)
-    assert average_fresnel(1.0) == 0
+def test_a_smooth_one_is_a_mirror_and_smooth_glass_is_exact():
+    assert [type(lobe) for lobe in Layers(roughness=0.0).lobes()[0]] == [Mirror, Lambert]
+    assert Layers(base=(1.0, 1.0, 1.0), roughness=0.0, transmission=1.0).lobes()[0] == (Dielectric(1.5),)
 
 
 def test_specular_level_scales_the_reflection_at_normal_incidence():

@@ -91,6 +91,7 @@ def test_an_index_of_refraction_beyond_all_reason_is_cut_off_and_said(name, ior,
     node = blender.add_node(tree, name, IOR=ior)
     if name.endswith("Principled"):
         blender.node_input(node, "Transmission Weight").default_value = 1
+    blender.node_input(node, "Roughness").default_value = 0
     tree.links.new(node.outputs[0], surface)
     scene, warnings = blender.export()
     (found,) = (lobe.ior for lobe in scene.objects[0].materials[0].lobes if isinstance(lobe, Dielectric))

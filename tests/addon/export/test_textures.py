@@ -4,7 +4,9 @@ import bpy
 import numpy as np
 import pytest
 
-from glanz.engine import ImageTexture, Lambert, LambertTransmission, LinearTexture, PhongLecture
+from glanz.engine import CheckerTexture, Gloss, ImageTexture, Lambert, LambertTransmission
+from glanz.engine.scene.points import OnPlane
+from glanz.engine.scene.textured import with_inner
 from glanz.tests.addon import blender
 from glanz.tests.textured import extremes
 
@@ -238,13 +240,12 @@ def test_the_base_colour_of_principled_may_be_a_texture():
     blender.node_input(principled, "Metallic").default_value = 0.25
     o, warnings = exported(material)
     assert warnings == ()
-    lobes = {type(lobe): lobe for lobe in o.materials[0].lobes}
-    assert set(lobes) == {Lambert, PhongLecture}
-    diffuse, glossy = (lobes[kind].reflectance for kind in (Lambert, PhongLecture))
-    assert type(diffuse) is type(glossy) is LinearTexture
-    assert diffuse.textures[0] is glossy.textures[0]
-    assert max(extremes(LinearTexture((diffuse, glossy), (1.0, 1.0)))[1]) <= 1 + 1e-6
-    assert glossy.factors[0] == pytest.approx((0.25 * 31 / 32,) * 3)
+    lobes = o.materials[0].lobes
+    assert {type(lobe) for lobe in lobes} == {Lambert, Gloss}
+    checkers = [{id(t) for t in with_inner(lobe.reflectance) if type(t) is CheckerTexture} for lobe in lobes]
+    assert len(set.union(*checkers)) == 1
+    at = OnPlane(np.random.default_rng(1).random((3, 1000), np.float32))
+    assert sum(at.value(lobe.reflectance) for lobe in lobes).max() <= 1 + 1e-5
 
 
 def test_emission_may_be_a_texture_and_is_scaled_by_its_strength():

@@ -1,0 +1,26 @@
+"""The index of refraction of what is on the far side of a surface."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import registry
+
+
+@registry.add
+@dataclass(frozen=True, eq=False)
+class RelativeIndex:
+    """`ior` seen from the front, and 1 / ior from within."""
+
+    key = "relative index"
+    label = "Relative Index"
+    is_pure = False
+
+    ior: object = 1.5
+
+    def check(self, owner):
+        pass
+
+    def eval(self, at):
+        ior = np.clip(np.nan_to_num(at.value(self.ior)[:1]), 1e-3, 1e3)
+        return np.where(at.surface.is_front, ior, 1 / ior).astype(np.float32)

@@ -1,0 +1,66 @@
+"""Rough shaders become lobes as wide as GGX's, whose share of light depends on the angle."""
+
+import bpy
+import numpy as np
+import pytest
+
+from glanz.engine import GgxAlbedo, Gloss, Mirror, RoughRefraction, is_texture
+from glanz.tests.addon import blender
+
+
+def _exported(material):
+    """(engine material, warnings)."""
+    blender.add_plane().data.materials.append(material)
+    scene, warnings = blender.export()
+    return scene.objects[0].materials[0], warnings
+
+
+@pytest.mark.parametrize("roughness", [1, 0.5, 0.25, 0.04])
+def test_glossy_roughness_becomes_the_exponent(roughness):
+    """Half of the light is in the same cone as GGX's; what is reflected depends on the angle."""
+    material, warnings = _exported(blender.new_material("M", "ShaderNodeBsdfAnisotropic", Color=(0.9, 0.5, 0.1, 1), Roughness=roughness))
+    assert warnings == ()
+    (lobe,) = material.lobes
+    assert type(lobe) is Gloss
+    assert is_texture(lobe.reflectance)
+    a2 = roughness**4
+    assert lobe.exponent == pytest.approx(np.log(2) / np.log((1 + 3 * a2) / (1 + a2)) - 1, rel=1e-3, abs=1e-6)
+
+
+@pytest.mark.parametrize("roughness", [0.02, 0])
+def test_what_is_sharper_than_the_sharpest_lobe_is_a_mirror(roughness):
+    material, warnings = _exported(blender.new_material("M", "ShaderNodeBsdfAnisotropic", Color=(0.9, 0.5, 0.1, 1), Roughness=roughness))
+    assert warnings == ()
+    (lobe,) = material.lobes
+    assert type(lobe) is Mirror
+    assert lobe.reflectance == pytest.approx((0.9, 0.5, 0.1))
+
+
+def test_rough_glass_reflects_and_refracts():
+    material, warnings = _exported(blender.new_material("Pane", "ShaderNodeBsdfGlass", Roughness=0.3))
+    assert warnings == ()
+    assert [type(lobe) for lobe in material.lobes] == [Gloss, RoughRefraction]
+
+
+def test_rough_refraction_only_refracts():
+    material, warnings = _exported(blender.new_material("Pane", "ShaderNodeBsdfRefraction", Color=(0.5, 0.6, 0.7, 1), Roughness=0.3))
+    assert warnings == ()
+    (lobe,) = material.lobes
+    assert type(lobe) is RoughRefraction
+    assert lobe.transmittance == pytest.approx((0.5, 0.6, 0.7))
+
+
+@pytest.mark.skipif(not hasattr(bpy.types, "ShaderNodeBsdfMetallic"), reason="since Blender 4.3")
+def test_metal_has_the_colour_of_its_base_and_that_of_its_edge():
+    values = {"Base_Color": (0.5, 0.6, 0.7, 1), "Edge_Tint": (0.25, 0.5, 1, 1), "Roughness": 0.5}
+    material, _ = _exported(blender.new_material("Brass", "ShaderNodeBsdfMetallic", **values))
+    (lobe,) = material.lobes
+    assert type(lobe.reflectance) is GgxAlbedo
+    assert lobe.reflectance.f0 == pytest.approx((0.5, 0.6, 0.7))
+    assert lobe.reflectance.tint == pytest.approx((0.25, 0.5, 1))
+
+
+def test_holdout_is_black_and_named():
+    exported, (warning,) = _exported(blender.new_material("Hole", "ShaderNodeHoldout"))
+    assert exported.lobes == ()
+    assert warning.startswith("Holdout")

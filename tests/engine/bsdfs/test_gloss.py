@@ -1,0 +1,42 @@
+"""Lobes that reflect, or pass, exactly the share that they are told to, from wherever they are seen."""
+
+import numpy as np
+import pytest
+
+from glanz.engine import Gloss, RoughRefraction
+from glanz.engine.maths.vectors import dot
+from glanz.tests import helpers as h
+from glanz.tests.bsdf_laws import NORMAL, viewer
+
+ANGLES = (0.0, 0.8, 1.4, 1.55)
+
+
+def share(value, k, angle, side, n=200_000):
+    """What goes to one `side` of the surface, a mean over directions as the lobe samples them, (n,)."""
+    wo, normal = np.repeat(viewer(angle), n, 1), np.repeat(NORMAL, n, 1)
+    wi = value.sample(k, normal, wo, h.uniform(7, n))
+    cos = side * dot(normal, wi)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        weight = value.eval(k, normal, wo, wi)[0] * cos / value.pdf(k, normal, wo, wi)
+    return np.where(cos > 0, weight, 0)
+
+
+@pytest.mark.parametrize("angle", ANGLES)
+@pytest.mark.parametrize("exponent", [0.0, 5.0, 200.0])
+def test_all_is_reflected_whatever_the_angle(exponent, angle):
+    value = Gloss((1.0, 1.0, 1.0), exponent)
+    assert h.mean_is(share(value, h.table(value.row()), angle, 1), 1.0)
+
+
+@pytest.mark.parametrize("angle", ANGLES)
+@pytest.mark.parametrize("eta", [1.0, 1.5, 1 / 1.5])
+def test_all_passes_and_its_radiance_is_that_of_the_other_medium(eta, angle):
+    value = RoughRefraction((1.0, 1.0, 1.0), 20.0, eta)
+    assert h.mean_is(share(value, h.table(value.row()), angle, -1) * eta**2, 1.0)
+
+
+def test_what_is_lost_below_the_surface_is_noticed(monkeypatch):
+    value = Gloss((1.0, 1.0, 1.0), 5.0)
+    lossy = lambda k, n, wo, wi: Gloss.pdf(k, n, wo, wi) / np.abs(dot(n, wi)) * np.ones((3, 1))  # noqa: E731
+    monkeypatch.setattr(Gloss, "eval", staticmethod(lossy))
+    assert not h.mean_is(share(value, h.table(value.row()), 1.4, 1), 1.0)

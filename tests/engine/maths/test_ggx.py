@@ -1,0 +1,70 @@
+"""What GGX reflects on the whole, by closed forms, and lobes as wide as its own, by counting."""
+
+import numpy as np
+import pytest
+
+from glanz.engine.maths import ggx
+from glanz.engine.maths.fresnel import fresnel_dielectric
+
+COSINES = np.linspace(0.05, 1, 39, dtype=np.float32)
+
+
+def test_seen_from_above_the_roughest_surface_reflects_one_minus_ln_2():
+    """alpha = 1: cos(h)^2 is uniform, z = 2 cos(h)^2 - 1 and G2 / G1 = 2 z / (1 + z); the integral over z is 1 - ln 2."""
+    assert ggx.moment("A", np.ones(1, np.float32), 1.0)[0] == pytest.approx(1 - np.log(2), rel=2e-3)
+
+
+@pytest.mark.parametrize("eta", [1.2, 1.5, 2.0, 4.0])
+def test_a_smooth_surface_reflects_what_fresnel_says(eta):
+    for name in "FV":
+        found = ggx.fresnel_moment(name, COSINES, np.float32(0), np.float32(eta))
+        assert found == pytest.approx(fresnel_dielectric(COSINES, eta), abs=0.01)
+    assert ggx.moment("P", COSINES, np.float32(0)) == pytest.approx((1 - COSINES) ** 5, abs=0.005)
+
+
+def test_from_within_a_smooth_body_all_is_reflected_beyond_the_critical_angle():
+    critical = np.sqrt(1 - 1 / 1.5**2)
+    cos = np.array([0.1, critical - 0.1], np.float32)
+    assert ggx.fresnel_moment("V", cos, np.float32(0), np.float32(1 / 1.5)) == pytest.approx(1, abs=0.02)
+
+
+def test_nothing_reflects_more_than_arrives():
+    r = np.linspace(0, 1, 21, dtype=np.float32)[:, None]
+    a = ggx.moment("A", COSINES, r)
+    assert (a <= 1 + 1e-6).all() and (a > 0).all()
+    for eta in (1 / 3, 0.9, 1.0, 1.1, 3.0):
+        assert (ggx.fresnel_moment("F", COSINES, r, np.float32(eta)) <= a + 1e-6).all()
+
+
+def reflected_angles(alpha, n=400_001):
+    """Angles between reflected directions above the horizon and the mirror's, seen from above."""
+    u = (np.arange(n) + 0.5) / n
+    h = np.arctan(alpha * np.sqrt(u / (1 - u)))
+    return 2 * h[2 * h < np.pi / 2]
+
+
+@pytest.mark.parametrize("roughness", [0.1, 0.25, 0.5, 0.75, 1.0])
+def test_half_of_the_light_is_in_the_same_cone_as_of_ggx(roughness):
+    exponent = ggx.exponent_of_reflection(np.float32(roughness))
+    median = np.median(reflected_angles(roughness**2))
+    assert np.cos(median) ** (exponent + 1) == pytest.approx(0.5, abs=1e-3)
+
+
+def test_an_exponent_of_normals_instead_of_directions_is_no_match():
+    median = np.median(reflected_angles(0.25))
+    assert abs(np.cos(median) ** (2 / 0.25**2 - 1) - 0.5) > 0.1
+
+
+@pytest.mark.parametrize("roughness", [0.25, 0.5, 0.75])
+@pytest.mark.parametrize("eta", [1.33, 1.5, 1 / 1.33])
+def test_half_of_the_light_that_passes_is_in_the_same_cone_as_of_ggx(roughness, eta):
+    h = np.arctan(roughness**2)
+    turn = abs(h - np.arcsin(min(np.sin(h) / eta, 1)))
+    exponent = float(ggx.exponent_of_refraction(np.float32(roughness), eta))
+    assert np.cos(turn) ** (exponent + 1) == pytest.approx(0.5, abs=2e-3)
+
+
+def test_the_smoothest_and_the_roughest_have_the_sharpest_and_the_widest_lobe():
+    assert ggx.exponent_of_reflection(np.float32(0)) == 1e6
+    assert ggx.exponent_of_reflection(np.float32(1)) == pytest.approx(0, abs=1e-6)
+    assert ggx.exponent_of_refraction(np.float32(0.5), 1.0) == 1e6
