@@ -193,9 +193,9 @@ def colour_by(material, output):
     connect(material, output, shader(material).inputs["Color"])
 
 
-def picture(name, width, height, pixels, is_colour=True):
+def picture(name, width, height, pixels, is_colour=True, has_alpha=False):
     """A packed 8-bit picture; `pixels` are linear RGBA numbers from the bottom left on, or plain data unless `is_colour`."""
-    made = bpy.data.images.new(name, width, height)
+    made = bpy.data.images.new(name, width, height, alpha=has_alpha)
     made.colorspace_settings.name = "sRGB" if is_colour else "Non-Color"
     values = [float(v) for v in pixels]
     if is_colour:
