@@ -188,6 +188,13 @@ SECTIONS = (
         "A picture, a checker, noise and gradients as colours; noise as bumps, and a picture as normals.",
         (Picture("textures", "path tracing"),),
     ),
+    Section(
+        "materials",
+        "Twelve materials from nodes",
+        "Wood, brick, tiles, brushed metal; car paint, glass with dirt, leaves with alpha, skin; fabric, marble, water, neon: node trees as users "
+        "have them, rendered as they are. How each node compares with Cycles is in [nodes](nodes.md).",
+        (Picture("materials", "path tracing, 256 samples"),),
+    ),
 )
 FOOTER = """
 ## Sampling

@@ -18,6 +18,7 @@ NAMES = (
     "instances",
     "lights",
     "many_lights",
+    "materials",
     "metal_balls",
     "mirror_and_glass",
     "moving_balls",
