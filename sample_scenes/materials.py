@@ -196,7 +196,7 @@ SHAPES = {leaves: spray, neon: tube}
 
 def build():
     """The scene: four balls in each of three rows before a wall."""
-    scene = common.new_scene("Materials", 640, 480, samples=256, max_depth=8)
+    scene = common.new_scene("Materials", 560, 420, samples=128, max_depth=8)
     scene.glanz.sampler = "sobol"
     for number, make in enumerate(MATERIALS):
         material = make()
