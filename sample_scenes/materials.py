@@ -168,7 +168,8 @@ def spray(name, material):
     """Leaves on cards around a stem."""
     vertices, faces, uvs = [], [], []
     for i in range(11):
-        turn = Matrix.Rotation(2.4 * i, 4, "Z") @ Matrix.Translation((0.0, 0.0, -0.35 + 0.07 * i)) @ Matrix.Rotation(-0.7 - 0.05 * i, 4, "X")
+        turn = Matrix.Rotation(2.4 * i, 4, "Z") @ Matrix.Translation((0.0, 0.0, -0.35 + 0.07 * i))
+        turn = turn @ Matrix.Rotation(-0.7 - 0.05 * i, 4, "X")
         corners = [(-0.2, 0.0, 0.0), (0.2, 0.0, 0.0), (0.2, 0.0, 0.42), (-0.2, 0.0, 0.42)]
         faces.append(tuple(range(len(vertices), len(vertices) + 4)))
         vertices += [tuple(turn @ common.Vector(c)) for c in corners]
@@ -181,7 +182,8 @@ def spray(name, material):
 def tube(name, material, around=96, across=20):
     """A bent glass tube: a ring of radius 0.38 m, 0.06 m thick."""
     places = [(2 * math.pi * i / around, 2 * math.pi * j / across) for i in range(around) for j in range(across)]
-    vertices = [((0.38 + 0.06 * math.cos(b)) * math.cos(a), 0.06 * math.sin(b), (0.38 + 0.06 * math.cos(b)) * math.sin(a)) for a, b in places]
+    rings = [(0.38 + 0.06 * math.cos(b), a, b) for a, b in places]
+    vertices = [(r * math.cos(a), 0.06 * math.sin(b), r * math.sin(a)) for r, a, b in rings]
     cells = [(i, j) for i in range(around) for j in range(across)]
     faces = [tuple((i + di) % around * across + (j + dj) % across for di, dj in ((0, 0), (0, 1), (1, 1), (1, 0))) for i, j in cells]
     made = common.mesh(name, vertices, faces, [material], smooth=True)
