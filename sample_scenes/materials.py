@@ -150,7 +150,7 @@ def neon():
 
 def ball(name, material):
     """A smooth ball with longitude and latitude as UVs."""
-    made = common.sphere(name, 0.5, material, segments=64, rings=32)
+    made = common.sphere(name, 0.5, material, segments=40, rings=20)
     layer = made.uv_layers.new(name="UVMap")
     uvs = []
     for polygon in made.polygons:
@@ -179,7 +179,7 @@ def spray(name, material):
     return made
 
 
-def tube(name, material, around=96, across=20):
+def tube(name, material, around=64, across=12):
     """A bent glass tube: a ring of radius 0.38 m, 0.06 m thick."""
     places = [(2 * math.pi * i / around, 2 * math.pi * j / across) for i in range(around) for j in range(across)]
     rings = [(0.38 + 0.06 * math.cos(b), a, b) for a, b in places]

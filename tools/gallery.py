@@ -191,8 +191,8 @@ SECTIONS = (
     Section(
         "materials",
         "Twelve materials from nodes",
-        "Wood, brick, tiles, brushed metal; car paint, glass with dirt, leaves with alpha, skin; fabric, marble, water, neon: node trees as "
-        "users have them, rendered as they are. How each node compares with Cycles is in [nodes](nodes.md).",
+        "Wood, brick, tiles, brushed metal; car paint, glass with dirt, leaves with alpha, skin; fabric, marble, water, neon: node trees "
+        "as users have them, rendered as they are. How each node compares with Cycles is in [nodes](nodes.md).",
         (Picture("materials", "path tracing, 128 samples"),),
     ),
 )
