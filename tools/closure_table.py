@@ -23,9 +23,8 @@ Cycles on the left, Glanz on the right: spheres under a sun and a grey world, in
 
 The table has the directional albedo of each in a white furnace: what a sphere shows on the ring where the cosine between its normal
 and the view is in the range. All are of the colour (0.8, 0.6, 0.4), of which green is listed: Glanz / Cycles. The deviation is the
-largest over rings and channels. At most 3 % is asked of what is smooth or diffuse, 10 % of what is rough. Rough reflection is Phong's
-lobe of 1975 with the exponent 2 / roughness^4 - 2, which beyond roughness 0.76 gives way to the modified lobe, smooth one a mirror;
-coats reflect the average of Fresnel's share.
+largest over rings and channels. At most 3 % is asked of what is smooth or diffuse, 10 % of what is rough. Rough reflection and
+refraction are Phong's lobes, as wide as those of GGX and scaled to its directional albedo: see [lobes](lobes.md).
 
 """
 

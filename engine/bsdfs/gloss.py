@@ -1,26 +1,32 @@
-"""Glossy reflection of whatever share is wished for, for each direction of view: a cosine's power without loss at the rim.
+"""Glossy reflection of whatever share is wished for, for each direction of view: Phong's lobe, fading towards the horizon.
 
-    f |cos| = k_s (p(wi) + p(wi')),    p(w) = (n + 1) / (2 pi) max(r . w, 0)^n
+    f |cos| = k_s p(wi) S(cos_i) / N(cos_o, n),    p(w) = (n + 1) / (2 pi) max(r . w, 0)^n
 
-about the mirror direction r of wo, where wi' is wi mirrored at the surface: what would go below it is folded back. So exactly
-k_s is reflected, whatever wo, where the lobe of Lafortune and Willems 1994 (CW 197) loses with the cosine; for n -> infinity it
-is the mirror itself. The price is reciprocity. k_s is meant to be a texture that knows how much is reflected towards wo.
-It is sampled as Phong's lobe is; weights are at most 2 k_s.
+about the mirror direction r of wo. S is Smith's masking of GGX as wide as the lobe, 2 c / (c + sqrt(a^2 + (1 - a^2) c^2)) (Walter et
+al. 2007, eq. 34): without it wide lobes would end at the horizon of the light in a hard edge. N is what S and the horizon leave
+of p, worked out beforehand, so that k_s is reflected, whatever wo; for n -> infinity it is the mirror itself. The price is
+reciprocity. k_s is meant to be a texture that knows how much is reflected towards wo.
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
+from ..maths.ggx import alpha2_of_exponent
 from ..maths.lobes import LARGEST_EXPONENT, check_exponent, sample_lobe, sample_lobe_pdf
 from ..maths.vectors import cosine_power, dot, reflect
 from . import registry
+
+_WIDTHS, _COSINES, _SIDE = 33, 33, 96
+_MARGIN = np.float32(1 + 2.0**-9)
+"""The table of N is right to this; no more must be reflected than k_s says."""
 
 
 @registry.add
 @dataclass(frozen=True)
 class Gloss:
-    """f |cos| = k_s (n + 1) / (2 pi) cos^n of the angle to the mirror direction; `exponent` n >= 0, large is sharp."""
+    """k_s times Phong's lobe, masked towards the horizon and scaled up to what is lost; `exponent` n >= 0, large is sharp."""
 
     key = "gloss"
     label = "Gloss"
@@ -49,7 +55,11 @@ class Gloss:
 
     @staticmethod
     def eval(k, n, wo, wi):
-        return k.reflectance * (_folded(k, n, wo, wi) / _cosine(n, wi))
+        r, a2 = reflect(wo, n), alpha2_of_exponent(k.exponent)
+        # S / cos, which has a limit at the horizon.
+        cos = np.abs(dot(n, wi))
+        masked = 2 / (cos + np.sqrt(a2 + (1 - a2) * cos * cos))
+        return k.reflectance * (sample_lobe_pdf(r, wi, k.exponent) * masked / (_left(k.exponent, np.abs(dot(n, wo))) * _MARGIN))
 
     @staticmethod
     def illuminate(k, n, wo, wi):
@@ -64,12 +74,33 @@ class Gloss:
         return sample_lobe_pdf(reflect(wo, n), wi, k.exponent)
 
 
-def _folded(k, n, wo, wi):
-    r = reflect(wo, n)
-    # Mirrored wi to r is as wi to mirrored r, which is -wo.
-    return sample_lobe_pdf(r, wi, k.exponent) + sample_lobe_pdf(-wo, wi, k.exponent)
+@lru_cache(maxsize=1)
+def _table():
+    """N (_WIDTHS, _COSINES) float32, means over the lobe: by its width w = 1 / sqrt(n + 1), and by cos (1 + w) / (cos + w) of wo.
+
+    Both are from 0 to 1. So places near the horizon are told apart as finely as the lobe is narrow.
+    """
+    u2 = (np.stack(np.meshgrid(np.arange(_SIDE), np.arange(_SIDE))).reshape(2, -1) + 0.5) / _SIDE
+    table = np.empty((_WIDTHS, _COSINES))
+    for row, width in enumerate(np.maximum(np.linspace(0, 1, _WIDTHS), (LARGEST_EXPONENT + 1) ** -0.5)):
+        exponent = 1 / width**2 - 1
+        a2 = alpha2_of_exponent(exponent)
+        for column, y in enumerate(np.linspace(0, 1, _COSINES)):
+            cos = min(width * y / (1 + width - y), 1.0)
+            axis = np.array((np.sqrt(1 - cos * cos), 0.0, cos))[:, None]
+            c = np.maximum(sample_lobe(np.broadcast_to(axis, (3, u2.shape[1])), u2, exponent)[2], 0)
+            # Where c is 0, so is what is left.
+            table[row, column] = np.mean(2 * c / np.maximum(c + np.sqrt(a2 + (1 - a2) * c * c), np.finfo(float).tiny))
+    return table.astype(np.float32).ravel()
 
 
-def _cosine(n, wi):
-    cos = np.abs(dot(n, wi))
-    return np.maximum(cos, np.finfo(cos.dtype).tiny)
+def _left(exponent, cos):
+    """N (N,) of exponents and cosines (N,), linear between the entries of the table."""
+    width = 1 / np.sqrt(exponent + 1)
+    x, y = width * (_WIDTHS - 1), cos * (1 + width) / (cos + width) * (_COSINES - 1)
+    i, j = np.minimum(x.astype(np.intp), _WIDTHS - 2), np.minimum(y.astype(np.intp), _COSINES - 2)
+    a, b, table = x - i.astype(x.dtype), y - j.astype(y.dtype), _table()
+    first = i * _COSINES + j
+    lower = (1 - b) * table.take(first) + b * table.take(first + 1)
+    upper = (1 - b) * table.take(first + _COSINES) + b * table.take(first + _COSINES + 1)
+    return (1 - a) * lower + a * upper

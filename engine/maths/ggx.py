@@ -36,6 +36,13 @@ def exponent_of_reflection(roughness):
     return _exponent(-np.log1p(2 * a2 / (1 + a2)))
 
 
+def alpha2_of_exponent(exponent):
+    """Roughness^4 of the reflected lobe with this exponent: the inverse of `exponent_of_reflection`."""
+    turn = np.expm1(np.log(2) / (exponent + 1))
+    # cos of the median angle is 2^(-1 / (n + 1)), and (1 + a^2) / (1 + 3 a^2).
+    return (turn / (2 - turn)).astype(exponent.dtype)
+
+
 def exponent_of_refraction(roughness, eta):
     """The exponent n of the refracted lobe; eta is the index behind the surface over that before it."""
     alpha = np.square(np.clip(roughness, 0, 1))

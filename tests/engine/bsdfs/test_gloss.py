@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from glanz.engine import Gloss, RoughRefraction
+from glanz.engine.bsdfs import gloss
 from glanz.engine.maths.vectors import dot
 from glanz.tests import helpers as h
 from glanz.tests.bsdf_laws import NORMAL, viewer
@@ -25,7 +26,7 @@ def share(value, k, angle, side, n=200_000):
 @pytest.mark.parametrize("exponent", [0.0, 5.0, 200.0])
 def test_all_is_reflected_whatever_the_angle(exponent, angle):
     value = Gloss((1.0, 1.0, 1.0), exponent)
-    assert h.mean_is(share(value, h.table(value.row()), angle, 1), 1.0)
+    assert h.mean_is(share(value, h.table(value.row()), angle, 1), 1.0, floor=2.0**-7)
 
 
 @pytest.mark.parametrize("angle", ANGLES)
@@ -37,6 +38,17 @@ def test_all_passes_and_its_radiance_is_that_of_the_other_medium(eta, angle):
 
 def test_what_is_lost_below_the_surface_is_noticed(monkeypatch):
     value = Gloss((1.0, 1.0, 1.0), 5.0)
-    lossy = lambda k, n, wo, wi: Gloss.pdf(k, n, wo, wi) / np.abs(dot(n, wi)) * np.ones((3, 1))  # noqa: E731
-    monkeypatch.setattr(Gloss, "eval", staticmethod(lossy))
-    assert not h.mean_is(share(value, h.table(value.row()), 1.4, 1), 1.0)
+    monkeypatch.setattr(gloss, "_left", lambda exponent, cos: np.ones_like(cos))
+    assert not h.mean_is(share(value, h.table(value.row()), 1.4, 1), 1.0, floor=2.0**-7)
+
+
+@pytest.mark.parametrize("exponent", [0.0, 1.0, 20.0])
+def test_reflected_light_fades_towards_the_horizon_of_its_source(exponent):
+    """So that wide lobes have no hard edge where a lamp sets: f |cos| falls with the cosine."""
+    value = Gloss((1.0, 1.0, 1.0), exponent)
+    k, wo = h.table(value.row()), viewer(0.7)
+    along = wo - dot(wo, NORMAL) * NORMAL
+    along /= np.linalg.norm(along)
+    low = [c * NORMAL - np.sqrt(1 - c * c) * along for c in (0.01, 0.001)]
+    first, second = (float(value.eval(k, NORMAL, wo, wi)[0, 0] * dot(NORMAL, wi)[0]) for wi in low)
+    assert second / first == pytest.approx(0.1, rel=0.2)
