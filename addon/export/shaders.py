@@ -6,7 +6,7 @@ from . import closure
 from .closure import Closure
 from .colours import varies
 from .nodes import input_by_identifier
-from .principled import Layers
+from .principled import Layers, fibres
 from .relief import relief_of
 from .values import Reader
 
@@ -107,6 +107,11 @@ def _metallic(reader, node):
     return _bent(reader, node, closure.metal(*values))
 
 
+def _sheen(reader, node):
+    reader.note("Sheen BSDF is rendered as Diffuse that is brightest at the rim, as at Roughness 0.5")
+    return _bent(reader, node, closure.diffuse(fibres(reader.value(node, "Color"))))
+
+
 def _holdout(reader, node):
     reader.note("Holdout is rendered black, the picture is not transparent there")
     return Closure()
@@ -160,6 +165,7 @@ _TABLE = {
     "BSDF_GLASS": _glass,
     "BSDF_REFRACTION": _refraction,
     "BSDF_METALLIC": _metallic,
+    "BSDF_SHEEN": _sheen,
     "BSDF_TRANSLUCENT": _translucent,
     "BSDF_TRANSPARENT": _transparent,
     "EMISSION": _emission,

@@ -12,7 +12,6 @@ SHORTFALLS = {
     "Glass, IOR 1.5, roughness 1": _SHAPE,
     "Glass, IOR 2.5, roughness 0.5": _SHAPE,
     "Glass, IOR 2.5, roughness 1": _SHAPE,
-    "Sheen BSDF, roughness 0.5": "not known, rendered as Diffuse",
 }
 """{shader: why it is farther from Cycles than its bar}."""
 NOISE = 0.005

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from glanz.engine import GgxAlbedo, Gloss, Mirror, RoughRefraction, is_texture
+from glanz.engine.scene.points import Probes
 from glanz.tests.addon import blender
 
 
@@ -64,3 +65,14 @@ def test_holdout_is_black_and_named():
     exported, (warning,) = _exported(blender.new_material("Hole", "ShaderNodeHoldout"))
     assert exported.lobes == ()
     assert warning.startswith("Holdout")
+
+
+def test_sheen_is_a_diffuse_rim_and_says_so():
+    """0.02 seen straight, 0.62 at the rim, of its colour."""
+    blender.add_plane().data.materials.append(blender.new_material("Velvet", "ShaderNodeBsdfSheen", Color=(1, 0.5, 0, 1)))
+    scene, (warning,) = blender.export()
+    assert "rim" in warning
+    assert "material 'Velvet'" in warning
+    (lobe,) = scene.objects[0].materials[0].lobes
+    cos = -Probes().d[2]
+    assert Probes().value(lobe.reflectance) == pytest.approx(np.outer((1, 0.5, 0), 0.02 + 0.6 * (1 - cos) ** 2), abs=1e-5)
