@@ -2,10 +2,12 @@
 
     f |cos| = k_s p(wi) S(cos_i) / N(cos_o, n),    p(w) = (n + 1) / (2 pi) max(r . w, 0)^n
 
-about the mirror direction r of wo. S is Smith's masking of GGX as wide as the lobe, 2 c / (c + sqrt(a^2 + (1 - a^2) c^2)) (Walter et
-al. 2007, eq. 34): without it wide lobes would end at the horizon of the light in a hard edge. N is what S and the horizon leave
-of p, worked out beforehand, so that k_s is reflected, whatever wo; for n -> infinity it is the mirror itself. The price is
-reciprocity. k_s is meant to be a texture that knows how much is reflected towards wo.
+about the mirror direction r of wo. Below n = 1 the power stays 1, so that there is no edge where r . w = 0, and the axis turns
+towards the normal, as the peak of rough surfaces does: at n = 0 it is Lambert's lobe, masked. S is Smith's masking of GGX as
+wide as the lobe, 2 c / (c + sqrt(a^2 + (1 - a^2) c^2)) (Walter et al. 2007, eq. 34): without it wide lobes would end at the
+horizon of the light in a hard edge. N is what S and the horizon leave of p, worked out beforehand, so that k_s is reflected,
+whatever wo; for n -> infinity it is the mirror itself. The price is reciprocity. k_s is meant to be a texture that knows how
+much is reflected towards wo.
 """
 
 from dataclasses import dataclass
@@ -15,7 +17,7 @@ import numpy as np
 
 from ..maths.ggx import alpha2_of_exponent
 from ..maths.lobes import LARGEST_EXPONENT, check_exponent, sample_lobe, sample_lobe_pdf
-from ..maths.vectors import cosine_power, dot, reflect
+from ..maths.vectors import cosine_power, dot, length, reflect
 from . import registry
 
 _WIDTHS, _COSINES, _SIDE = 33, 33, 96
@@ -55,11 +57,11 @@ class Gloss:
 
     @staticmethod
     def eval(k, n, wo, wi):
-        r, a2 = reflect(wo, n), alpha2_of_exponent(k.exponent)
+        (axis, power), a2 = _lobe(k.exponent, n, wo), alpha2_of_exponent(k.exponent)
         # S / cos, which has a limit at the horizon.
         cos = np.abs(dot(n, wi))
         masked = 2 / (cos + np.sqrt(a2 + (1 - a2) * cos * cos))
-        return k.reflectance * (sample_lobe_pdf(r, wi, k.exponent) * masked / (_left(k.exponent, np.abs(dot(n, wo))) * _MARGIN))
+        return k.reflectance * (sample_lobe_pdf(axis, wi, power) * masked / (_left(k.exponent, np.abs(dot(n, wo))) * _MARGIN))
 
     @staticmethod
     def illuminate(k, n, wo, wi):
@@ -67,11 +69,19 @@ class Gloss:
 
     @staticmethod
     def sample(k, n, wo, u2):
-        return sample_lobe(reflect(wo, n), u2, k.exponent)
+        axis, power = _lobe(k.exponent, n, wo)
+        return sample_lobe(axis, u2, power)
 
     @staticmethod
     def pdf(k, n, wo, wi):
-        return sample_lobe_pdf(reflect(wo, n), wi, k.exponent)
+        axis, power = _lobe(k.exponent, n, wo)
+        return sample_lobe_pdf(axis, wi, power)
+
+
+def _lobe(exponent, n, wo):
+    """The axis (3, N), unit, and the power (N,) of the cosine to it."""
+    axis = n + np.minimum(exponent, 1) * (reflect(wo, n) - n)
+    return axis / length(axis), np.maximum(exponent, 1)
 
 
 @lru_cache(maxsize=1)
@@ -81,14 +91,14 @@ def _table():
     Both are from 0 to 1. So places near the horizon are told apart as finely as the lobe is narrow.
     """
     u2 = (np.stack(np.meshgrid(np.arange(_SIDE), np.arange(_SIDE))).reshape(2, -1) + 0.5) / _SIDE
-    table = np.empty((_WIDTHS, _COSINES))
+    table, up = np.empty((_WIDTHS, _COSINES)), np.array((0.0, 0.0, 1.0))[:, None]
     for row, width in enumerate(np.maximum(np.linspace(0, 1, _WIDTHS), (LARGEST_EXPONENT + 1) ** -0.5)):
         exponent = 1 / width**2 - 1
         a2 = alpha2_of_exponent(exponent)
         for column, y in enumerate(np.linspace(0, 1, _COSINES)):
             cos = min(width * y / (1 + width - y), 1.0)
-            axis = np.array((np.sqrt(1 - cos * cos), 0.0, cos))[:, None]
-            c = np.maximum(sample_lobe(np.broadcast_to(axis, (3, u2.shape[1])), u2, exponent)[2], 0)
+            axis, power = _lobe(np.float64(exponent), up, np.array((-np.sqrt(1 - cos * cos), 0.0, cos))[:, None])
+            c = np.maximum(sample_lobe(np.broadcast_to(axis, (3, u2.shape[1])), u2, power)[2], 0)
             # Where c is 0, so is what is left.
             table[row, column] = np.mean(2 * c / np.maximum(c + np.sqrt(a2 + (1 - a2) * c * c), np.finfo(float).tiny))
     return table.astype(np.float32).ravel()

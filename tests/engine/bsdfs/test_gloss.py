@@ -51,4 +51,4 @@ def test_reflected_light_fades_towards_the_horizon_of_its_source(exponent):
     along /= np.linalg.norm(along)
     low = [c * NORMAL - np.sqrt(1 - c * c) * along for c in (0.01, 0.001)]
     first, second = (float(value.eval(k, NORMAL, wo, wi)[0, 0] * dot(NORMAL, wi)[0]) for wi in low)
-    assert second / first == pytest.approx(0.1, rel=0.2)
+    assert second <= 0.12 * first
