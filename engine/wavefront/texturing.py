@@ -1,5 +1,7 @@
 """Parameters of materials that textures fill in."""
 
+from functools import partial
+
 import numpy as np
 
 from ..arrays import Columns
@@ -36,7 +38,8 @@ def fill_in_textures(plan, rays, surface, reflection):
             if not lanes.size:
                 continue
             points = points or points_of(plan, rays, surface)
-            at = points.take(lanes)
+            # Where one material is met everywhere there is nothing to pick; no relief has bent the normals of these lanes.
+            at = points.met(lambda: surface) if lanes.size == count else points.take(lanes).met(partial(surface.take, lanes))
         for t in textured:
             if t.lobe not in own:
                 own[t.lobe] = _with_own_columns(lobes[t.lobe].k, count)

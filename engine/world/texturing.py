@@ -25,7 +25,7 @@ class TexturePoints(Points):
     def __init__(self, attributes, prim, u, v, view=None, across=None):
         super().__init__()
         self.attributes, self.prim, self.u, self.v, self.across = attributes, prim, u, v, across
-        self._view = view
+        self._view, self._find_surface = view, None
 
     @property
     def count(self):
@@ -50,6 +50,11 @@ class TexturePoints(Points):
     def moved_by(self, a):
         """The points at a (3, N) from these, render space, along their triangles."""
         return self.moved(*barycentric(a, *self.edges, self.surface.n))
+
+    def met(self, find):
+        """These points, whose `Surface` is known already: `find`() gives it when a texture asks."""
+        self._find_surface = find
+        return self
 
     def on(self, surface):
         """The points on a `Surface` that differs from theirs in its shading normals."""
@@ -85,7 +90,7 @@ class TexturePoints(Points):
     @property
     def surface(self):
         """The `Surface`: its shading normals are as yet without relief."""
-        return self.once("surface", lambda: self._view.surface(self.prim, self.u, self.v))
+        return self.once("surface", self._find_surface or (lambda: self._view.surface(self.prim, self.u, self.v)))
 
     @property
     def edges(self):
