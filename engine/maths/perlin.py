@@ -35,7 +35,8 @@ def noise(p):
     corners = [_along(axis, np.stack((c, c + _U(1))), len(p)) for axis, c in enumerate(cell)]
     ways = [_along(axis, np.stack((x, x - 1)), len(p)) for axis, x in enumerate(p)]
     values = _products(jenkins(*corners), *ways)
-    for t in p[::-1] ** 3 * (p[::-1] * (p[::-1] * 6 - 15) + 10):
+    # Products, as what a power rounds may depend on the number of lanes.
+    for t in p[::-1] * p[::-1] * p[::-1] * (p[::-1] * (p[::-1] * 6 - 15) + 10):
         values = values[0] + t * (values[1] - values[0])
     return _SCALES[len(p)] * values
 
