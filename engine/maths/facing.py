@@ -7,7 +7,7 @@ from .vectors import cross, dot, length
 
 _TINY = np.finfo(np.float32).tiny
 _LEAST = np.float32(2.0**-17)
-"""Of an index of refraction: about Cycles' 1e-5, below which it would be divided by 0."""
+"""Of an index of refraction: about Cycles' 1e-5, below which it would be divided by 0. Above its inverse all is reflected, to 3e-5."""
 
 
 def schlick_facing(cos, blend):
@@ -22,7 +22,7 @@ def schlick_facing(cos, blend):
 
 def facing_fresnel(cos, ior, is_front):
     """The share (N,) of light that a dielectric of index `ior` reflects, seen from outside where it is_front, else from inside."""
-    ior = np.maximum(ior, _LEAST)
+    ior = np.clip(ior, _LEAST, 1 / _LEAST)
     return fresnel_dielectric(np.abs(cos), np.where(is_front, ior, 1 / ior))
 
 
