@@ -15,14 +15,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..constants import PI
-from ..maths.lobes import LARGEST_EXPONENT, check_exponent, sample_lobe, sample_lobe_pdf
+from ..maths.lobes import Highlight, sample_lobe, sample_lobe_pdf
 from ..maths.vectors import cosine_power, dot, length, reflect
 from . import registry
 
 
 @registry.add
 @dataclass(frozen=True)
-class BlinnPhong:
+class BlinnPhong(Highlight):
     """f = k_s c(n) cos^n of the angle between normal and half vector; `exponent` n >= 0, large is sharp.
 
     The highlight is stretched towards grazing angles; seen straight it is as wide as Phong's of exponent n / 4.
@@ -30,28 +30,9 @@ class BlinnPhong:
 
     key = "blinn_phong"
     label = "Blinn-Phong"
-    is_specular = False
-    transmits = False
     is_reciprocal = True
-    is_diffuse = False
-    limits = {"exponent": (0.0, LARGEST_EXPONENT)}
 
-    reflectance: tuple = (0.8, 0.8, 0.8)
     exponent: float = 128.0
-
-    @classmethod
-    def black(cls):
-        return cls((0.0, 0.0, 0.0))
-
-    def row(self):
-        return {"reflectance": self.reflectance, "exponent": self.exponent}
-
-    @staticmethod
-    def albedo(k):
-        return k.reflectance
-
-    def check(self, owner):
-        check_exponent(f"material '{owner}': Phong exponent", self.exponent)
 
     @staticmethod
     def eval(k, n, wo, wi):

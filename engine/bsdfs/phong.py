@@ -11,40 +11,19 @@ below the surface carry nothing and still count.
 
 from dataclasses import dataclass
 
-from ..maths.lobes import LARGEST_EXPONENT, check_exponent, phong_lobe, sample_lobe, sample_lobe_pdf
+from ..maths.lobes import Highlight, phong_lobe, sample_lobe, sample_lobe_pdf
 from ..maths.vectors import cosine_power, reflect
 from . import registry
 
 
 @registry.add
 @dataclass(frozen=True)
-class Phong:
+class Phong(Highlight):
     """f = k_s (n + 2) / (2 pi) cos^n of the angle to the mirror direction; `exponent` n >= 0, large is sharp."""
 
     key = "phong"
     label = "Phong"
-    is_specular = False
-    transmits = False
     is_reciprocal = True
-    is_diffuse = False
-    limits = {"exponent": (0.0, LARGEST_EXPONENT)}
-
-    reflectance: tuple = (0.8, 0.8, 0.8)
-    exponent: float = 32.0
-
-    @classmethod
-    def black(cls):
-        return cls((0.0, 0.0, 0.0))
-
-    def row(self):
-        return {"reflectance": self.reflectance, "exponent": self.exponent}
-
-    @staticmethod
-    def albedo(k):
-        return k.reflectance
-
-    def check(self, owner):
-        check_exponent(f"material '{owner}': Phong exponent", self.exponent)
 
     @staticmethod
     def eval(k, n, wo, wi):

@@ -15,14 +15,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..constants import EPS32
-from ..maths.lobes import LARGEST_EXPONENT, check_exponent, phong_lobe, sample_lobe, sample_lobe_pdf
+from ..maths.lobes import Highlight, phong_lobe, sample_lobe, sample_lobe_pdf
 from ..maths.vectors import cosine_power, dot, reflect
 from . import registry
 
 
 @registry.add
 @dataclass(frozen=True)
-class PhongLecture:
+class PhongLecture(Highlight):
     """f = k_s (n + 2) / (2 pi) cos^n of the angle to the mirror direction, over the cosine of incidence.
 
     reflectance  k_s, at most (n + 1) / (n + 2)
@@ -31,28 +31,11 @@ class PhongLecture:
 
     key = "phong_lecture"
     label = "Phong (Lecture)"
-    is_specular = False
-    transmits = False
     is_reciprocal = False
-    is_diffuse = False
-    limits = {"exponent": (0.0, LARGEST_EXPONENT)}
-
-    reflectance: tuple = (0.8, 0.8, 0.8)
-    exponent: float = 32.0
-
-    @classmethod
-    def black(cls):
-        return cls((0.0, 0.0, 0.0))
-
-    def row(self):
-        return {"reflectance": self.reflectance, "exponent": self.exponent}
 
     @staticmethod
     def albedo(k):
         return k.reflectance * ((k.exponent + 2) / (k.exponent + 1))
-
-    def check(self, owner):
-        check_exponent(f"material '{owner}': Phong exponent", self.exponent)
 
     @staticmethod
     def eval(k, n, wo, wi):

@@ -43,8 +43,8 @@ EXPONENTS = (0.0, 0.5, 1.0, 10.0, 1e3, 1e6)
 EXAMPLES = {
     **{bsdf.key: [bsdf((1.0, 0.5, 0.25))] for bsdf in (Lambert, LambertTransmission)},
     **{bsdf.key: [bsdf((0.5, 0.25, 0.125), n) for n in EXPONENTS] for bsdf in (Phong, PhongLecture, BlinnPhong, PhongTransmission)},
-    # They reflect all that they may, so quadrature has to be exact: where the horizon cuts a lobe it is not for all exponents.
-    "gloss": [Gloss((0.5, 0.25, 0.125), n) for n in (0.0, 10.0, 32.0)],
+    # Lobes whose axis is turned end where this quadrature does not look; `test_gloss` goes there.
+    "gloss": [Gloss((0.5, 0.25, 0.125), n) for n in (0.0, 1.0, 10.0, 1000.0)],
     "rough_refraction": [RoughRefraction(), *(RoughRefraction((0.5, 0.25, 0.125), n, 1.0) for n in (0.0, 10.0))],
 }
 ALL = [value for key, plugin in BSDFS.items() if not plugin.is_specular for value in EXAMPLES.get(key, [plugin()])]
