@@ -32,7 +32,8 @@ class Closure:
 
     def __add__(self, other):
         return Closure(
-            self.lobes + other.lobes,
+            # Merged at once: shaders that are mixed with themselves again and again would double each time.
+            merged(self.lobes + other.lobes),
             added(self.emission, other.emission),
             tuple(dict.fromkeys(self.reliefs + other.reliefs)),
         )

@@ -5,7 +5,6 @@ import numpy as np
 from ...engine import Coordinates, LinearTexture, average_of, is_texture
 
 WHITE, BLACK = (1.0, 1.0, 1.0), (0.0, 0.0, 0.0)
-LUMINANCE = (0.2126, 0.7152, 0.0722)
 
 
 def varies(value):
@@ -45,7 +44,10 @@ def added(a, b):
         if not varies(one) and not np.any(one):
             return as_texture(other)
     a, b = terms_of(a), terms_of(b)
-    return LinearTexture(a.textures + b.textures, a.factors + b.factors, added(a.offset, b.offset))
+    sums = {}
+    for texture, factor in (*zip(a.textures, a.factors), *zip(b.textures, b.factors)):
+        sums[texture] = added(sums[texture], factor) if texture in sums else factor
+    return LinearTexture(tuple(sums), tuple(sums.values()), added(a.offset, b.offset))
 
 
 def cut(value):
@@ -73,11 +75,6 @@ def typical(value):
     return mean[0] if len(mean) == 1 else tuple(mean)
 
 
-def luminance(colour):
-    """The luminance of a constant (r, g, b)."""
-    return float(np.dot(LUMINANCE, colour))
-
-
 def terms_of(value):
     """A value as a `LinearTexture` that is a sum of textures."""
     if not varies(value):
@@ -88,5 +85,3 @@ def terms_of(value):
 
 def _constant(colour):
     return tuple(float(c) for c in colour)
-
-

@@ -26,6 +26,10 @@ def words(mode):
     return mode.lower().replace("_", " ")
 
 
+DEEPEST = 128
+"""Nodes in a row, from the output on, that are followed: what is read and rendered one within the other needs a stack."""
+
+
 class Links:
     """Follows the links of one node tree and of the groups in it, and notes what is odd about them.
 
@@ -44,9 +48,12 @@ class Links:
         return type(self)(self.owner, self.findings, groups, trail)
 
     def beyond(self, node):
-        """A reader for what feeds `node`, or None, with a note, where that leads back to `node` itself."""
+        """A reader for what feeds `node`, or None, with a note, where that leads back to `node` itself, or too deep."""
         if (node, self.groups) in self.trail:
             self.note("its nodes form a circle, which is cut off")
+            return None
+        if len(self.trail) >= DEEPEST:
+            self.note(f"its nodes feed each other more than {DEEPEST} deep, what is beyond '{node.name}' is cut off")
             return None
         return self._elsewhere(self.groups, (*self.trail, (node, self.groups)))
 

@@ -30,7 +30,7 @@ def _behind(reader, socket):
         return Closure()
     node = output.node
     read = _TABLE.get(node.type, _approximated)
-    return read(reader.beyond(node), node)
+    return reader.once(output, lambda: read(reader.beyond(node), node))
 
 
 def _approximated(reader, node):

@@ -23,7 +23,7 @@ class Reader(Links):
     """Reads the values of sockets: a number, three numbers, a texture, or `Coordinates`, which stand for vectors.
 
     bitmaps  the images of textures; None: whoever asks has no points to look textures up at
-    known    {(groups, node, output): value}: what feeds several sockets is one value for all
+    known    {(groups, node, output): value}: what feeds several sockets is worked out once and is one value for all
     """
 
     def __init__(self, owner, findings, bitmaps=None, groups=(), trail=(), known=None):
@@ -77,14 +77,22 @@ class Reader(Links):
 
     def _read(self, output):
         """The value of an output, or None where its node is not known, or feeds itself."""
-        node = output.node
-        key = (tuple(group.as_pointer() for group in self.groups), node.as_pointer(), output.identifier)
-        if key not in self._known:
-            read, inside = TABLE.get(node.type), self.beyond(node)
-            if inside is None:
-                return None
+        node, inside = output.node, self.beyond(output.node)
+        if inside is None:
+            return None
+
+        def make():
+            read = TABLE.get(node.type)
             value = read and read(inside, node, output.identifier)
-            self._known[key] = folded(value) if is_texture(value) else value
+            return folded(value) if is_texture(value) else value
+
+        return self.once(output, make)
+
+    def once(self, output, make):
+        """What `make`() returns, called the first time only that this output is asked for in these groups."""
+        key = (tuple(group.as_pointer() for group in self.groups), output.node.as_pointer(), output.identifier)
+        if key not in self._known:
+            self._known[key] = make()
         return self._known[key]
 
 
