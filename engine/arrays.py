@@ -17,6 +17,14 @@ class Columns(SimpleNamespace):
         """The rows `lanes` (M,), as a new table."""
         return Columns(**{name: column.take(lanes, axis=-1) for name, column in vars(self).items()})
 
+    def pick(self, lanes):
+        """The rows `lanes` (M,), or the only row of a table in which one stands for all."""
+        return self if all(column.shape[-1] == 1 for column in vars(self).values()) else self.take(lanes)
+
+    def spread(self, n):
+        """A copy with a row for each of n lanes, where one may stand for all."""
+        return Columns(**{name: np.array(np.broadcast_to(column, (*column.shape[:-1], n))) for name, column in vars(self).items()})
+
     def part(self, rows):
         """The slice `rows` of the table, not copied."""
         return Columns(**{name: column[..., rows] for name, column in vars(self).items()})

@@ -129,7 +129,7 @@ class Texture(Protocol):
     label: str
 
     def check(self, owner):
-        """Raises SceneError, naming the material `owner`, for options out of range."""
+        """Raises SceneError, naming `owner`, such as "material 'Wood'", for options out of range."""
 
     def eval(self, at):
         """The value at points: float32 (3, N) for a colour or vector, (1, N) for a number; one column where it is the same for all.

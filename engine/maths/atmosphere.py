@@ -6,7 +6,7 @@ scattered more often is a fit, and includes what the ground reflects. Lengths in
 
 import numpy as np
 
-from .spectrum import FROM_XYZ
+from .observer import FROM_XYZ
 
 EARTH = 6371.0
 """Radius of the ground [km]."""

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .spectrum import FROM_XYZ
+from .observer import FROM_XYZ
 from .vectors import dot
 
 _HORIZON = 0.5 * np.pi - 0.001

@@ -56,12 +56,6 @@ def _exponent(log_cos):
         return np.clip(-np.log(2) / log_cos - 1, 0, LARGEST_EXPONENT).astype(np.float32)
 
 
-def index_of(f0):
-    """The index of refraction >= 1 whose reflection at normal incidence is f0."""
-    root = np.sqrt(np.clip(f0, 0, 0.99))
-    return (1 + root) / (1 - root)
-
-
 def moment(name, cos, roughness):
     """A, P or Q float32 (N,) at cosines (N,) of wo to the normal."""
     return _looked_up(_moments()[name], (_place(np.sqrt(np.abs(cos)), _COSINES), _place(roughness, _ROUGHNESSES)))

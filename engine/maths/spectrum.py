@@ -9,6 +9,7 @@ off. Every channel's weights add up to 1, so light that is the same at all wavel
 import numpy as np
 
 from .discrete import choose, cumulative, probabilities
+from .observer import FROM_XYZ
 
 LOWEST, HIGHEST = 400.0, 700.0
 """What is seen of the spectrum [nm]; beyond lies less than 0.1 % of any channel."""
@@ -16,8 +17,6 @@ LINE_F, LINE_D, LINE_C = 486.13, 587.56, 656.27
 """Fraunhofer's lines [nm]: blue and red of hydrogen, and between them helium's, where indices of refraction are given."""
 _BINS = 60
 _WIDTH = (HIGHEST - LOWEST) / _BINS
-FROM_XYZ = np.array([[3.2404542, -1.5371385, -0.4985314], [-0.9692660, 1.8760108, 0.0415560], [0.0556434, -0.2040259, 1.0572252]])
-"""IEC 61966-2-1: linear Rec. 709 from XYZ."""
 
 
 def place(wavelength):

@@ -37,11 +37,11 @@ class Coordinates:
         return (self.source, self.layer if self.source == "uv" else "")
 
     def check(self, owner):
-        """Raises SceneError, naming the material `owner`, for an unknown source or a matrix that is not finite."""
+        """Raises SceneError, naming `owner`, for an unknown source or a matrix that is not finite."""
         if self.source not in SOURCES:
-            raise SceneError(f"material '{owner}': texture coordinates are '{self.source}', allowed: {', '.join(SOURCES)}")
+            raise SceneError(f"{owner}: texture coordinates are '{self.source}', allowed: {', '.join(SOURCES)}")
         if not np.isfinite(self.matrix).all():
-            raise SceneError(f"material '{owner}': the transform of its texture coordinates is not finite")
+            raise SceneError(f"{owner}: the transform of its texture coordinates is not finite")
 
 
 UV = Coordinates()

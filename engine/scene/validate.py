@@ -81,11 +81,7 @@ def _check_material(material):
     if is_texture(material.ambient):
         raise SceneError(f"material '{material.name}': ambient is a texture, allowed: three finite numbers from 0 on")
     for texture in material_textures(material):
-        for part in with_inner(texture):
-            part.check(material.name)
-            _check_inputs(material, part, part.key)
-        for coordinates in coordinates_of(texture):
-            coordinates.check(material.name)
+        _check_texture(texture, f"material '{material.name}'")
     for name in ("emission", "ambient"):
         if not (is_texture(value := getattr(material, name)) or _is_colour(value)):
             raise SceneError(f"material '{material.name}': {name} is {value}, allowed: three finite numbers from 0 on")
@@ -108,10 +104,14 @@ def _check_material(material):
         )
 
 
-def _check_inputs(material, texture, what):
-    for value in inputs_of(texture):
-        if not (is_texture(value) or isinstance(value, Coordinates)) and np.shape(value) not in ((), (3,)):
-            raise SceneError(f"material '{material.name}': an input of its {what} is {value!r}, allowed: one or three numbers")
+def _check_texture(texture, owner):
+    for part in with_inner(texture):
+        part.check(owner)
+        for value in inputs_of(part):
+            if not (is_texture(value) or isinstance(value, Coordinates)) and np.shape(value) not in ((), (3,)):
+                raise SceneError(f"{owner}: an input of its {part.label} is {value!r}, allowed: one or three numbers")
+    for coordinates in coordinates_of(texture):
+        coordinates.check(owner)
 
 
 def _check_light(light, warnings):
@@ -136,8 +136,7 @@ def _check_world(world, warnings):
     if is_texture(world.radiance):
         if environment is not None:
             raise SceneError(f"world '{world.name}': its radiance is a texture, so it has no environment beside it")
-        for part in with_inner(world.radiance):
-            part.check(world.name)
+        _check_texture(world.radiance, f"world '{world.name}'")
         return world
     colours = {"radiance": world.radiance} | ({"strength of the environment": environment.strength} if environment else {})
     for name, colour in colours.items():

@@ -25,7 +25,7 @@ class Math:
 
     def check(self, owner):
         if self.operation not in NUMBERS:
-            raise SceneError(f"material '{owner}': operation of Math is '{self.operation}', allowed: {', '.join(NUMBERS)}")
+            raise SceneError(f"{owner}: operation of Math is '{self.operation}', allowed: {', '.join(NUMBERS)}")
 
     def eval(self, at):
         function = NUMBERS[self.operation]

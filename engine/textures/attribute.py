@@ -26,7 +26,7 @@ class Attribute:
 
     def check(self, owner):
         if self.output not in _SOURCES:
-            raise SceneError(f"material '{owner}': output of its attribute is '{self.output}', allowed: {', '.join(_SOURCES)}")
+            raise SceneError(f"{owner}: output of its attribute is '{self.output}', allowed: {', '.join(_SOURCES)}")
 
     @property
     def attributes(self):

@@ -53,11 +53,11 @@ class BrickTexture:
     def check(self, owner):
         for name in ("shift", "squash"):
             if not np.isfinite(getattr(self, name)):
-                raise SceneError(f"material '{owner}': brick {name} is {getattr(self, name)}, allowed: finite numbers")
+                raise SceneError(f"{owner}: brick {name} is {getattr(self, name)}, allowed: finite numbers")
             if getattr(self, f"{name}_every") < 0:
-                raise SceneError(f"material '{owner}': bricks {name} every {getattr(self, f'{name}_every')} rows, allowed: 0 or more")
+                raise SceneError(f"{owner}: bricks {name} every {getattr(self, f'{name}_every')} rows, allowed: 0 or more")
         if self.output not in ("color", "fac"):
-            raise SceneError(f"material '{owner}': brick gives '{self.output}', allowed: color, fac")
+            raise SceneError(f"{owner}: brick gives '{self.output}', allowed: color, fac")
 
     def eval(self, at):
         p, _ = placed(at, self.coordinates, self.scale)

@@ -35,7 +35,7 @@ class BumpMap:
 
     def check(self, owner):
         if not 0 < self.width < math.inf:
-            raise SceneError(f"material '{owner}': width of its bump is {self.width}, allowed: finite, above 0")
+            raise SceneError(f"{owner}: width of its bump is {self.width}, allowed: finite, above 0")
 
     def eval(self, at):
         ns = at.surface.ns if self.normal is None else at.value(self.normal)

@@ -37,7 +37,7 @@ class CameraData:
 
     def check(self, owner):
         if self.output not in _OUTPUTS:
-            raise SceneError(f"material '{owner}': output of its camera data is '{self.output}', allowed: {', '.join(_OUTPUTS)}")
+            raise SceneError(f"{owner}: output of its camera data is '{self.output}', allowed: {', '.join(_OUTPUTS)}")
 
     def eval(self, at):
         return _OUTPUTS[self.output](at)

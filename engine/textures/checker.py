@@ -34,7 +34,7 @@ class CheckerTexture:
 
     def check(self, owner):
         if self.output not in ("color", "fac"):
-            raise SceneError(f"material '{owner}': checker gives '{self.output}', allowed: color, fac")
+            raise SceneError(f"{owner}: checker gives '{self.output}', allowed: color, fac")
 
     def eval(self, at):
         p, axes = at.look_up(self.coordinates)

@@ -28,7 +28,7 @@ class ColourRamp:
     is_smooth: bool = True
 
     def check(self, owner):
-        check_table(self.table, f"material '{owner}': table of Color Ramp")
+        check_table(self.table, f"{owner}: table of Color Ramp")
 
     def eval(self, at):
         return look_up(self.table, at.value(self.factor), self.is_smooth)

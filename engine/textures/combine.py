@@ -24,7 +24,7 @@ class Combine:
 
     def check(self, owner):
         if self.model not in TO_RGB:
-            raise SceneError(f"material '{owner}': model of Combine is '{self.model}', allowed: {', '.join(TO_RGB)}")
+            raise SceneError(f"{owner}: model of Combine is '{self.model}', allowed: {', '.join(TO_RGB)}")
 
     def eval(self, at):
         parts = np.broadcast_arrays(*(at.value(x) for x in (self.x, self.y, self.z)))

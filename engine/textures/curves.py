@@ -35,9 +35,9 @@ class Curves:
     goes_on: bool = True
 
     def check(self, owner):
-        check_table(self.table, f"material '{owner}': table of Curves")
+        check_table(self.table, f"{owner}: table of Curves")
         if not (math.isfinite(self.low) and math.isfinite(self.high) and self.low < self.high):
-            raise SceneError(f"material '{owner}': Curves go from {self.low} to {self.high}, allowed: upwards")
+            raise SceneError(f"{owner}: Curves go from {self.low} to {self.high}, allowed: upwards")
 
     def eval(self, at):
         value, factor = at.value(self.value), at.value(self.factor)

@@ -44,9 +44,9 @@ class GaborTexture:
 
     def check(self, owner):
         if self.dimensions not in (2, 3):
-            raise SceneError(f"material '{owner}': Gabor noise has {self.dimensions} dimensions, allowed: 2, 3")
+            raise SceneError(f"{owner}: Gabor noise has {self.dimensions} dimensions, allowed: 2, 3")
         if self.output not in ("value", "phase", "intensity"):
-            raise SceneError(f"material '{owner}': Gabor noise gives '{self.output}', allowed: value, phase, intensity")
+            raise SceneError(f"{owner}: Gabor noise gives '{self.output}', allowed: value, phase, intensity")
 
     def eval(self, at):
         cosine, sine = at.once(shared_key(self, but="output"), lambda: self._phasor(at))

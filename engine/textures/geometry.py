@@ -39,7 +39,7 @@ class Geometry:
 
     def check(self, owner):
         if self.output not in _OUTPUTS:
-            raise SceneError(f"material '{owner}': output of its geometry is '{self.output}', allowed: {', '.join(_OUTPUTS)}")
+            raise SceneError(f"{owner}: output of its geometry is '{self.output}', allowed: {', '.join(_OUTPUTS)}")
 
     @property
     def attributes(self):

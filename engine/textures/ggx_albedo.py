@@ -43,7 +43,7 @@ class GgxAlbedo:
 
     def check(self, owner):
         if self.kind not in _KINDS:
-            raise SceneError(f"material '{owner}': kind of its GGX albedo is '{self.kind}', allowed: {', '.join(_KINDS)}")
+            raise SceneError(f"{owner}: kind of its GGX albedo is '{self.kind}', allowed: {', '.join(_KINDS)}")
 
     def eval(self, at):
         albedo = np.clip(at.once((id(self), "albedo"), lambda: self._albedo(at)), 0, 1)

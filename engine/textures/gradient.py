@@ -52,7 +52,7 @@ class GradientTexture:
 
     def check(self, owner):
         if self.shape not in _SHAPES:
-            raise SceneError(f"material '{owner}': gradient is '{self.shape}', allowed: {', '.join(_SHAPES)}")
+            raise SceneError(f"{owner}: gradient is '{self.shape}', allowed: {', '.join(_SHAPES)}")
 
     def eval(self, at):
         p, _ = at.look_up(self.coordinates)

@@ -55,14 +55,14 @@ class ImageTexture:
             ("projection", self.projection, (*PROJECTIONS, "box")),
         ):
             if value not in allowed:
-                raise SceneError(f"material '{owner}': image {name} is '{value}', allowed: {', '.join(allowed)}")
+                raise SceneError(f"{owner}: image {name} is '{value}', allowed: {', '.join(allowed)}")
         if not 0 <= self.blend <= 1:
-            raise SceneError(f"material '{owner}': image blend is {self.blend}, allowed: 0 to 1")
+            raise SceneError(f"{owner}: image blend is {self.blend}, allowed: 0 to 1")
         if not all(isinstance(tile, tuple) and len(tile) == 2 and type(tile[1]) is Bitmap for tile in self.tiles):
-            raise SceneError(f"material '{owner}': image tiles are pairs of a number and a Bitmap")
+            raise SceneError(f"{owner}: image tiles are pairs of a number and a Bitmap")
         for bitmap in (self.bitmap, *(bitmap for _, bitmap in self.tiles)):
             if not bitmap.is_finite:
-                raise SceneError(f"material '{owner}': image '{bitmap.name}' has pixels that are not finite")
+                raise SceneError(f"{owner}: image '{bitmap.name}' has pixels that are not finite")
 
     def eval(self, at):
         p, axes = at.look_up(self.coordinates)

@@ -30,7 +30,7 @@ class LayerWeight:
 
     def check(self, owner):
         if self.output not in ("facing", "fresnel"):
-            raise SceneError(f"material '{owner}': output of its layer weight is '{self.output}', allowed: facing, fresnel")
+            raise SceneError(f"{owner}: output of its layer weight is '{self.output}', allowed: facing, fresnel")
 
     def eval(self, at):
         cos = dot(at.d, at.surface.ns if self.normal is None else as_vector(at.value(self.normal)))

@@ -28,7 +28,7 @@ class LightPath:
 
     def check(self, owner):
         if self.output not in (*_KINDS, *_COUNTS):
-            raise SceneError(f"material '{owner}': output of its light path is '{self.output}', allowed: {', '.join((*_KINDS, *_COUNTS))}")
+            raise SceneError(f"{owner}: output of its light path is '{self.output}', allowed: {', '.join((*_KINDS, *_COUNTS))}")
 
     @property
     def asks_for_past(self):

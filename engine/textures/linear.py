@@ -27,7 +27,7 @@ class LinearTexture:
     def check(self, owner):
         are_inputs = all(hasattr(c, "eval") or np.shape(c) in ((), (3,)) for c in self.factors)
         if len(self.factors) != len(self.textures) or not are_inputs:
-            raise SceneError(f"material '{owner}': a combination of textures needs a factor for each of them, one or three numbers")
+            raise SceneError(f"{owner}: a combination of textures needs a factor for each of them, one or three numbers")
 
     def eval(self, at):
         total = at.value(self.offset)

@@ -52,9 +52,9 @@ class MagicTexture:
 
     def check(self, owner):
         if self.depth not in range(_MOST_DEPTH + 1):
-            raise SceneError(f"material '{owner}': magic depth is {self.depth}, allowed: 0 to {_MOST_DEPTH}")
+            raise SceneError(f"{owner}: magic depth is {self.depth}, allowed: 0 to {_MOST_DEPTH}")
         if self.output not in ("color", "fac"):
-            raise SceneError(f"material '{owner}': magic gives '{self.output}', allowed: color, fac")
+            raise SceneError(f"{owner}: magic gives '{self.output}', allowed: color, fac")
 
     def eval(self, at):
         p, _ = at.look_up(self.coordinates)

@@ -35,7 +35,7 @@ class MapRange:
     def check(self, owner):
         if self.interpolation not in PROGRESS:
             allowed = ", ".join(PROGRESS)
-            raise SceneError(f"material '{owner}': interpolation of Map Range is '{self.interpolation}', allowed: {allowed}")
+            raise SceneError(f"{owner}: interpolation of Map Range is '{self.interpolation}', allowed: {allowed}")
 
     def eval(self, at):
         low, high, to_low, to_high = (at.value(x) for x in (self.from_low, self.from_high, self.to_low, self.to_high))

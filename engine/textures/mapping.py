@@ -48,7 +48,7 @@ class Mapping:
 
     def check(self, owner):
         if self.kind not in _KINDS:
-            raise SceneError(f"material '{owner}': kind of Mapping is '{self.kind}', allowed: {', '.join(_KINDS)}")
+            raise SceneError(f"{owner}: kind of Mapping is '{self.kind}', allowed: {', '.join(_KINDS)}")
 
     def eval(self, at):
         return _KINDS[self.kind](*(as_vector(at.value(x)) for x in (self.vector, self.location, self.rotation, self.scale)))

@@ -30,7 +30,7 @@ class MixColour:
 
     def check(self, owner):
         if self.blend not in BLENDS:
-            raise SceneError(f"material '{owner}': blend of Mix is '{self.blend}', allowed: {', '.join(BLENDS)}")
+            raise SceneError(f"{owner}: blend of Mix is '{self.blend}', allowed: {', '.join(BLENDS)}")
 
     def eval(self, at):
         t = at.value(self.factor)

@@ -50,9 +50,9 @@ class NoiseTexture:
 
     def check(self, owner):
         if self.kind not in FRACTALS:
-            raise SceneError(f"material '{owner}': noise is '{self.kind}', allowed: {', '.join(FRACTALS)}")
+            raise SceneError(f"{owner}: noise is '{self.kind}', allowed: {', '.join(FRACTALS)}")
         if self.dimensions not in (1, 2, 3, 4):
-            raise SceneError(f"material '{owner}': noise has {self.dimensions} dimensions, allowed: 1 to 4")
+            raise SceneError(f"{owner}: noise has {self.dimensions} dimensions, allowed: 1 to 4")
 
     def eval(self, at):
         p, half = placed(at, self.coordinates, self.scale, self.w, self.dimensions)

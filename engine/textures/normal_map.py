@@ -36,7 +36,7 @@ class NormalMap:
 
     def check(self, owner):
         if self.space not in _SPACES:
-            raise SceneError(f"material '{owner}': space of its normal map is '{self.space}', allowed: {', '.join(_SPACES)}")
+            raise SceneError(f"{owner}: space of its normal map is '{self.space}', allowed: {', '.join(_SPACES)}")
 
     @property
     def attributes(self):

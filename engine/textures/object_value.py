@@ -32,7 +32,7 @@ class ObjectValue:
 
     def check(self, owner):
         if self.output not in _OUTPUTS:
-            raise SceneError(f"material '{owner}': output of its object value is '{self.output}', allowed: {', '.join(_OUTPUTS)}")
+            raise SceneError(f"{owner}: output of its object value is '{self.output}', allowed: {', '.join(_OUTPUTS)}")
 
     @property
     def attributes(self):

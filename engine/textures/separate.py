@@ -22,9 +22,9 @@ class Separate:
 
     def check(self, owner):
         if self.model not in FROM_RGB:
-            raise SceneError(f"material '{owner}': model of Separate is '{self.model}', allowed: {', '.join(FROM_RGB)}")
+            raise SceneError(f"{owner}: model of Separate is '{self.model}', allowed: {', '.join(FROM_RGB)}")
         if self.component not in (0, 1, 2):
-            raise SceneError(f"material '{owner}': component of Separate is {self.component}, allowed: 0, 1, 2")
+            raise SceneError(f"{owner}: component of Separate is {self.component}, allowed: 0, 1, 2")
 
     def eval(self, at):
         value = as_vector(at.value(self.value))

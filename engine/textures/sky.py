@@ -59,7 +59,7 @@ class SkyTexture:
 
     def check(self, owner):
         if self.model not in MODELS:
-            raise SceneError(f"material '{owner}': the model of a sky is {self.model!r}, allowed: {', '.join(MODELS)}")
+            raise SceneError(f"{owner}: the model of a sky is {self.model!r}, allowed: {', '.join(MODELS)}")
         ranges = {
             "sun_size": (np.finfo(np.float32).tiny, 0.5 * np.pi),
             "sun_intensity": (0, np.inf),
@@ -73,7 +73,7 @@ class SkyTexture:
         for name, (least, most) in ranges.items():
             value = getattr(self, name)
             if not (np.isfinite(value) and np.float32(least) <= np.float32(value) <= np.float32(most)):
-                raise SceneError(f"material '{owner}': {name} of a sky is {value}, allowed: {least:.4g} to {most:.4g}")
+                raise SceneError(f"{owner}: {name} of a sky is {value}, allowed: {least:.4g} to {most:.4g}")
 
     def eval(self, at):
         d, _ = at.look_up(self.coordinates)

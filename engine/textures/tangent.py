@@ -27,7 +27,7 @@ class Tangent:
 
     def check(self, owner):
         if self.direction not in (*_AXES, "uv"):
-            raise SceneError(f"material '{owner}': direction of its tangent is '{self.direction}', allowed: x, y, z, uv")
+            raise SceneError(f"{owner}: direction of its tangent is '{self.direction}', allowed: x, y, z, uv")
 
     @property
     def attributes(self):

@@ -28,7 +28,7 @@ class VectorMath:
 
     def check(self, owner):
         if self.operation not in TRIPLES:
-            raise SceneError(f"material '{owner}': operation of Vector Math is '{self.operation}', allowed: {', '.join(TRIPLES)}")
+            raise SceneError(f"{owner}: operation of Vector Math is '{self.operation}', allowed: {', '.join(TRIPLES)}")
 
     def eval(self, at):
         function = TRIPLES[self.operation]

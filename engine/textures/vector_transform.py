@@ -32,7 +32,7 @@ class VectorTransform:
         for name, allowed in (("kind", _KINDS), ("source", _SPACES), ("target", _SPACES)):
             if getattr(self, name) not in allowed:
                 value = getattr(self, name)
-                raise SceneError(f"material '{owner}': {name} of its vector transform is '{value}', allowed: {', '.join(allowed)}")
+                raise SceneError(f"{owner}: {name} of its vector transform is '{value}', allowed: {', '.join(allowed)}")
 
     @property
     def attributes(self):

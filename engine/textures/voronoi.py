@@ -57,7 +57,7 @@ class VoronoiTexture:
         for name, allowed in (("feature", _FEATURES), ("metric", METRICS), ("output", _OUTPUTS), ("dimensions", (1, 2, 3, 4))):
             value = getattr(self, name)
             if value not in allowed:
-                raise SceneError(f"material '{owner}': Voronoi {name} is '{value}', allowed: {', '.join(map(str, allowed))}")
+                raise SceneError(f"{owner}: Voronoi {name} is '{value}', allowed: {', '.join(map(str, allowed))}")
 
     def eval(self, at):
         found = at.once(shared_key(self, but="output"), lambda: self._outputs(at))

@@ -73,7 +73,7 @@ class WaveTexture:
     def check(self, owner):
         for name, allowed in (("shape", _SHAPES), ("profile", _PROFILES)):
             if getattr(self, name) not in allowed:
-                raise SceneError(f"material '{owner}': wave {name} is '{getattr(self, name)}', allowed: {', '.join(allowed)}")
+                raise SceneError(f"{owner}: wave {name} is '{getattr(self, name)}', allowed: {', '.join(allowed)}")
 
     def eval(self, at):
         p, _ = placed(at, self.coordinates, self.scale)

@@ -30,9 +30,9 @@ class WhiteNoiseTexture:
 
     def check(self, owner):
         if self.dimensions not in (1, 2, 3, 4):
-            raise SceneError(f"material '{owner}': white noise has {self.dimensions} dimensions, allowed: 1 to 4")
+            raise SceneError(f"{owner}: white noise has {self.dimensions} dimensions, allowed: 1 to 4")
         if self.output not in ("value", "color"):
-            raise SceneError(f"material '{owner}': white noise gives '{self.output}', allowed: value, color")
+            raise SceneError(f"{owner}: white noise gives '{self.output}', allowed: value, color")
 
     def eval(self, at):
         p, _ = placed(at, self.coordinates, w=self.w, dimensions=self.dimensions)

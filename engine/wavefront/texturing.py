@@ -4,7 +4,6 @@ from functools import partial
 
 import numpy as np
 
-from ..arrays import Columns
 from ..scene.textured import luminance
 from ..world.materials import Lobe
 from ..world.texturing import TexturePoints, clean
@@ -42,9 +41,9 @@ def fill_in_textures(plan, rays, surface, reflection):
             at = points.met(lambda: surface) if lanes.size == count else points.take(lanes).met(partial(surface.take, lanes))
         for t in textured:
             if t.lobe not in own:
-                own[t.lobe] = _with_own_columns(lobes[t.lobe].k, count)
+                own[t.lobe] = lobes[t.lobe].k.spread(count)
             getattr(own[t.lobe], t.column)[..., lanes] = t.value(at)
-        tables = [_rows(own.get(i, lobe.k), lanes) for i, lobe in enumerate(lobes)]
+        tables = [own.get(i, lobe.k).pick(lanes) for i, lobe in enumerate(lobes)]
         albedos = [lobe.bsdf.albedo(k) for lobe, k in zip(lobes, tables)]
         rest = 1 - sum(np.minimum(clean(at.value(passed)), 1) for passed in materials.straight[row])
         for i, albedo in enumerate(albedos):
@@ -63,17 +62,7 @@ def _limit(lobes, own, count, lanes, rest, total):
         return
     for i, lobe in enumerate(lobes):
         if i not in own:
-            own[i] = _with_own_columns(lobe.k, count)
+            own[i] = lobe.k.spread(count)
         for name in _SCALES:
             if hasattr(own[i], name):
                 getattr(own[i], name)[:, lanes.take(over)] *= factor.take(over)
-
-
-def _rows(k, lanes):
-    """The rows `lanes` of a table, or the only row that it has."""
-    return k.take(lanes) if any(column.shape[-1] > 1 for column in vars(k).values()) else k
-
-
-def _with_own_columns(k, n):
-    """A copy of the table `k`, whose one row may stand for all, with a row for each of n lanes."""
-    return Columns(**{name: np.array(np.broadcast_to(column, (*column.shape[:-1], n))) for name, column in vars(k).items()})

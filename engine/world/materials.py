@@ -238,7 +238,7 @@ class Reflection:
         wi = first.bsdf.sample(first.k, n, wo, u2)
         for i, lobe in enumerate(self.rough[1:], start=1):
             lanes = self._chosen(i, u1, u2)
-            wi[:, lanes] = lobe.bsdf.sample(_rows(lobe.k, lanes), n.take(lanes, axis=1), wo.take(lanes, axis=1), u2.take(lanes, axis=1))
+            wi[:, lanes] = lobe.bsdf.sample(lobe.k.pick(lanes), n.take(lanes, axis=1), wo.take(lanes, axis=1), u2.take(lanes, axis=1))
         return wi
 
     _uniform_pdf = 0.5 * INV_PI
@@ -307,18 +307,13 @@ def _at_surface(branches, k, surface, lanes):
     """The branches (wi, weight) of a specular lobe, `k` a row for each point of `surface` or one for all, at its points `lanes`."""
     n, ns, wo = (a.take(lanes, axis=1) for a in (surface.n, surface.ns, surface.wo))
     is_front = surface.is_front.take(lanes)
-    for i, (wi, weight) in enumerate(branches(_rows(k, lanes), ns, wo, is_front, lanes)):
+    for i, (wi, weight) in enumerate(branches(k.pick(lanes), ns, wo, is_front, lanes)):
         # Where the shading normal is turned away, or would send reflected light through the surface or refracted light
         # back, the geometric one decides: specular light has no other way to go, and would be lost.
         astray = np.nonzero((dot(ns, wo) <= 0) | ((dot(n, wi) > 0) != (dot(ns, wi) > 0)))[0]
         if astray.size:
             weight = np.array(np.broadcast_to(weight, wi.shape))
             there = lanes.take(astray)
-            turned = branches(_rows(k, there), n.take(astray, axis=1), wo.take(astray, axis=1), is_front.take(astray), there)
+            turned = branches(k.pick(there), n.take(astray, axis=1), wo.take(astray, axis=1), is_front.take(astray), there)
             wi[:, astray], weight[:, astray] = turned[i]
         yield wi, weight
-
-
-def _rows(k, lanes):
-    """The rows `lanes` of a table, or the only row that it has."""
-    return k if all(column.shape[-1] == 1 for column in vars(k).values()) else k.take(lanes)

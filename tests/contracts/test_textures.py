@@ -320,14 +320,14 @@ def test_wide_footprints_catch_a_checker_that_ignores_them(monkeypatch):
 )
 def test_parameters_out_of_range_are_refused_by_name(value, word):
     with pytest.raises(SceneError, match=word) as error:
-        value.check("Wood")
+        value.check("material 'Wood'")
     assert "'Wood'" in str(error.value)
 
 
 def test_coordinates_out_of_range_are_refused():
     with pytest.raises(SceneError, match="screen"):
-        Coordinates(source="screen").check("Wood")
+        Coordinates(source="screen").check("material 'Wood'")
     with pytest.raises(SceneError, match="finite"):
-        Coordinates(matrix=np.full((4, 4), np.inf)).check("Wood")
+        Coordinates(matrix=np.full((4, 4), np.inf)).check("material 'Wood'")
     with pytest.raises(SceneError, match="shape"):
         Coordinates(matrix=np.eye(3))
