@@ -259,6 +259,22 @@ def box(name, size, material):
     return mesh(name, vertices, faces, [material])
 
 
+def wrapped(made, around=1.0, up=1.0, start=0.0):
+    """A mesh of a sphere about the origin with UVs: longitude, `around` times and from `start` on, and latitude, `up` times."""
+    layer = made.uv_layers.new(name="UVMap")
+    uvs = []
+    for polygon in made.polygons:
+        corners = [made.vertices[i].co for i in polygon.vertices]
+        middle = math.atan2(sum(c.y for c in corners), sum(c.x for c in corners)) / (2 * math.pi)
+        for c in corners:
+            u = math.atan2(c.y, c.x) / (2 * math.pi) if math.hypot(c.x, c.y) > 1e-6 else middle
+            # No face across the seam.
+            u += round(middle - u)
+            uvs += [around * (u + start), up * (math.asin(max(-1.0, min(1.0, c.z / c.length))) / math.pi + 0.5)]
+    layer.uv.foreach_set("vector", uvs)
+    return made
+
+
 def sphere(name, radius, material, segments=64, rings=32):
     """A smooth sphere about the origin: 2 segments (rings - 1) triangles once triangulated."""
     vertices = [(0.0, 0.0, radius)]

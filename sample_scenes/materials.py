@@ -150,18 +150,7 @@ def neon():
 
 def ball(name, material):
     """A smooth ball with longitude and latitude as UVs."""
-    made = common.sphere(name, 0.5, material, segments=40, rings=20)
-    layer = made.uv_layers.new(name="UVMap")
-    uvs = []
-    for polygon in made.polygons:
-        corners = [made.vertices[i].co for i in polygon.vertices]
-        middle = math.atan2(sum(c.y for c in corners), sum(c.x for c in corners)) / (2 * math.pi)
-        for c in corners:
-            u = math.atan2(c.y, c.x) / (2 * math.pi) if math.hypot(c.x, c.y) > 1e-6 else middle
-            u += round(middle - u)
-            uvs += [u + 0.5, math.asin(max(-1.0, min(1.0, c.z / c.length))) / math.pi + 0.5]
-    layer.uv.foreach_set("vector", uvs)
-    return made
+    return common.wrapped(common.sphere(name, 0.5, material, segments=40, rings=20), start=0.5)
 
 
 def spray(name, material):

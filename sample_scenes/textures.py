@@ -1,7 +1,5 @@
 """Textures: a picture, a checker, noise, gradients; noise as bumps, and a picture of normals."""
 
-import math
-
 import common
 import numpy as np
 from mathutils import Matrix
@@ -28,22 +26,6 @@ def studs():
     normal[r >= 1] = (0, 0, 1)
     normal /= np.linalg.norm(normal, axis=2, keepdims=True)
     return np.concatenate((0.5 * normal + 0.5, np.ones((SIDE, SIDE, 1))), axis=2)
-
-
-def with_uvs(mesh, around=1.0, up=1.0):
-    """Longitude and latitude of a sphere about the origin as UVs, `around` and `up` times."""
-    layer = mesh.uv_layers.new(name="UVMap")
-    uvs = []
-    for polygon in mesh.polygons:
-        corners = [mesh.vertices[i].co for i in polygon.vertices]
-        middle = math.atan2(sum(c.y for c in corners), sum(c.x for c in corners)) / (2 * math.pi)
-        for c in corners:
-            u = math.atan2(c.y, c.x) / (2 * math.pi) if math.hypot(c.x, c.y) > 1e-6 else middle
-            # No face across the seam.
-            u += round(middle - u)
-            uvs += [around * u, up * (math.asin(max(-1.0, min(1.0, c.z / c.length))) / math.pi + 0.5)]
-    layer.uv.foreach_set("vector", uvs)
-    return mesh
 
 
 def picture_of_tiles():
@@ -105,7 +87,7 @@ def build():
     for number, make in enumerate((picture_of_tiles, checker, noise, gradient, bumps, normals)):
         material = make()
         row, column = divmod(number, 3)
-        ball = with_uvs(common.sphere(material.name, 0.5, material, segments=48, rings=24), around=6.0, up=3.0)
+        ball = common.wrapped(common.sphere(material.name, 0.5, material, segments=48, rings=24), around=6.0, up=3.0)
         place = Matrix.Translation((1.25 * (column - 1), 0.0, 1.75 - 1.2 * row)) @ Matrix.Rotation(-0.4, 4, "Z")
         common.add(scene, material.name, ball, place)
     common.add(scene, "Wall", common.quad("Wall", (-6, 1.1, -4), (12, 0, 0), (0, 0, 10), common.diffuse("Wall", (0.32, 0.33, 0.36))))
