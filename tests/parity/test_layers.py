@@ -14,23 +14,18 @@ RINGS = (0.0, 0.4, 0.6, 0.75, 0.87)
 """Distances from the middle of the sphere, of which 1 is the rim: cosines of 1, 0.92, 0.8, 0.66 and 0.49."""
 
 
-def _bar(roughness, transmission):
-    """Of glass, which light leaves after several bounces within, what differs adds up: lobes of the roughest differ in shape."""
-    if transmission and roughness == 1:
-        return 0.25
-    return 0.1 if roughness else 0.03
-
-
 CASES = {
     "diffuse": ("ShaderNodeBsdfDiffuse", {"Color": (0.8, 0.8, 0.8, 1)}, 0.03),
     **{
         f"principled r{r} m{m} t{t} ior{ior}": (
             "ShaderNodeBsdfPrincipled",
             {"Base_Color": (0.8, 0.5, 0.2, 1), "Roughness": r, "Metallic": m, "Transmission_Weight": t, "IOR": ior},
-            _bar(r, t),
+            0.1 if r else 0.03,
         )
         for r in (0, 0.25, 0.5, 1)
         for m, t, ior in ((0, 0, 1.5), (0, 0, 2.0), (1, 0, 1.5), (0, 1, 1.33))
+        # The roughest glass misses the bar: see `test_closures.SHORTFALLS`.
+        if not (t and r == 1)
     },
     "coat": ("ShaderNodeBsdfPrincipled", {"Base_Color": (0.5, 0.1, 0.1, 1), "Roughness": 0.5, "Coat_Weight": 1}, 0.1),
     **{f"glossy r{r}": ("ShaderNodeBsdfAnisotropic", {"Color": (0.8, 0.8, 0.8, 1), "Roughness": r}, 0.1) for r in (0.25, 1)},

@@ -126,20 +126,22 @@ GROUPS = {
 def bar(case):
     """What falls short, and why.
 
-    Before Blender 5.2 the inverses of view transforms pass through numbers of sixteen bits. From there on Cycles treats
-    packed images differently from files whose alpha is not as their format has it. (Files like that are not compared.)
+    Before Blender 5.2 the inverses of view transforms are 93 % (Filmic) and 97 % (AgX).
     """
+    return ROUGHLY if dict(case.image).get("space") in ("Filmic sRGB", "AgX Base sRGB") and not IS_NEW else BAR
+
+
+def is_compared(case):
+    """Whether alpha is as the format has it: from Blender 5.2 on Cycles treats packed images differently where it is not."""
     image = dict(case.image)
-    if image.get("space") in ("Filmic sRGB", "AgX Base sRGB") and not IS_NEW:
-        return ROUGHLY
     is_odd = image.get("mode") == "PREMUL" and image["space"] == "sRGB"
     is_odd |= image.get("mode") == "STRAIGHT" and image["space"] == "Linear Rec.709" and "is_float" in image
-    return 0 if is_odd and IS_NEW else BAR
+    return not (is_odd and IS_NEW)
 
 
 @pytest.mark.parametrize("group", GROUPS)
 def test_an_image_is_that_of_cycles(group, tmp_path):
-    found = grid.shares(GROUPS[group], tmp_path, build=built(tmp_path))
+    found = grid.shares([c for c in GROUPS[group] if is_compared(c)], tmp_path, build=built(tmp_path))
     low = [(replace(c, kind=""), round(share, 3)) for c, share in found.items() if share < bar(c)]
     assert not low, "\n".join(f"{share} {c}" for c, share in low)
 
