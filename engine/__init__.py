@@ -54,6 +54,7 @@ from .textures.gabor import GaborTexture
 from .textures.gamma import Gamma
 from .textures.geometry import Geometry
 from .textures.ggx_albedo import GgxAlbedo
+from .textures.glass_tint import GlassTint
 from .textures.gradient import GradientTexture
 from .textures.hue_saturation import HueSaturation
 from .textures.image import ImageTexture
@@ -120,6 +121,7 @@ __all__ = [
     "Geometry",
     "GgxAlbedo",
     "GlanzError",
+    "GlassTint",
     "Gloss",
     "GradientTexture",
     "HueSaturation",

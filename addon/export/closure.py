@@ -100,9 +100,9 @@ def metal(base, tint, roughness):
     return Closure((reflected(GgxAlbedo(roughness, f0=cut(base), tint=cut(tint)), roughness),))
 
 
-def glass(colour, ior, roughness=0.0):
-    """A boundary that tints what it reflects and what passes it by `colour`."""
-    return Closure(boundary(as_texture(colour), as_texture(colour), roughness, ior))
+def glass(colour, ior, roughness=0.0, preserves=True):
+    """A boundary that tints what it reflects and what passes it by `colour`; see `boundary`."""
+    return Closure(boundary(as_texture(colour), as_texture(colour), roughness, ior, preserves=preserves))
 
 
 def refraction(colour, ior, roughness):

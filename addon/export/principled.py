@@ -16,7 +16,21 @@ They know from where they are seen, but not from where they are lit, so they are
 
 from dataclasses import dataclass
 
-from ...engine import Dielectric, GgxAlbedo, Gloss, Lambert, LayerWeight, LobeExponent, Mirror, RelativeIndex, RoughRefraction, folded
+import numpy as np
+
+from ...engine import (
+    Dielectric,
+    GgxAlbedo,
+    GlassTint,
+    Gloss,
+    Lambert,
+    LayerWeight,
+    LobeExponent,
+    Mirror,
+    RelativeIndex,
+    RoughRefraction,
+    folded,
+)
 from .colours import WHITE, added, as_texture, cut, inverted, root, times, varies
 
 SMOOTHEST = 0.024
@@ -68,7 +82,7 @@ class Layers:
         left = times(left, inverted(m))
         if _is_there(t):
             clear = times(left, t)
-            yield from boundary(clear, times(clear, root(base)), self.roughness, self.ior)
+            yield from boundary(WHITE, root(base), self.roughness, self.ior, clear)
         left = times(left, inverted(t))
         if not _is_there(left):
             return
@@ -87,15 +101,21 @@ def reflected(colour, roughness):
     return Mirror(colour) if is_smooth(roughness) else Gloss(colour, folded(LobeExponent(roughness)))
 
 
-def boundary(reflectance, transmittance, roughness, ior):
-    """The lobes of glass, which tint what they reflect and what passes; two, unless it is smooth."""
+def boundary(reflectance, transmittance, roughness, ior, weight=WHITE, preserves=True):
+    """The lobes of glass, times `weight`, which tint what they reflect and what passes; two, unless it is smooth.
+
+    What is scattered several times is lost unless it `preserves` energy.
+    """
     if is_smooth(roughness):
-        return (Dielectric(ior, reflectance, transmittance),)
+        return (Dielectric(ior, times(weight, reflectance), times(weight, transmittance)),)
     eta = RelativeIndex(ior)
     share = GgxAlbedo(roughness, eta, kind="boundary")
+    is_white = not varies(transmittance) and np.all(np.equal(transmittance, 1))
+    if not (is_white and preserves):
+        weight = times(weight, GlassTint(transmittance, roughness, eta, preserves))
     return (
-        reflected(times(reflectance, share), roughness),
-        RoughRefraction(times(transmittance, inverted(share)), LobeExponent(roughness, eta), eta),
+        reflected(times(times(weight, reflectance), share), roughness),
+        RoughRefraction(times(times(weight, transmittance), inverted(share)), LobeExponent(roughness, eta), eta),
     )
 
 

@@ -59,13 +59,17 @@ def _translucent(reader, node):
 
 def _glossy(reader, node):
     _without_anisotropy(reader, node, "Anisotropy")
-    preserves = getattr(node, "distribution", "MULTI_GGX") == "MULTI_GGX"
-    return _bent(reader, node, closure.glossy(reader.value(node, "Color"), reader.value(node, "Roughness"), preserves))
+    return _bent(reader, node, closure.glossy(reader.value(node, "Color"), reader.value(node, "Roughness"), _preserves(node)))
 
 
 def _glass(reader, node):
-    values = reader.value(node, "Color"), _ior(reader, node), reader.value(node, "Roughness")
+    values = reader.value(node, "Color"), _ior(reader, node), reader.value(node, "Roughness"), _preserves(node)
     return _bent(reader, node, closure.glass(*values))
+
+
+def _preserves(node):
+    """Whether light that the microfacets scatter several times is not lost."""
+    return getattr(node, "distribution", "MULTI_GGX") == "MULTI_GGX"
 
 
 def _ior(reader, node, identifier="IOR", default=1.5):

@@ -6,6 +6,8 @@ with Smith's L (Walter et al. 2007, eq. 34; Heitz 2014, eq. 99). Means over the 
 
     A = E[w]    P = E[w (1 - c)^5]    Q = E[w c (1 - c)^6]    F = E[w F(c)], exact Fresnel    V = E[F(c)]
 
+    B = E[w F(c) + w' (1 - F(c))]        a boundary: w' is w of the refracted direction, 0 where that comes back
+
 Whatever is linear in them (Schlick's Fresnel, its F82 tint, glass) has its albedo by them.
 
 A lobe cos^n about an axis has half of its light within the angle d of it where cos(d)^(n + 1) = 1 / 2. Seen from above, half of
@@ -20,7 +22,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from .fresnel import fresnel_dielectric
+from .fresnel import fresnel_dielectric, refracted_cosine
 from .lobes import LARGEST_EXPONENT
 
 _COSINES, _ROUGHNESSES, _STRATA = 24, 17, 24
@@ -63,17 +65,23 @@ def moment(name, cos, roughness):
 
 def fresnel_moment(name, cos, roughness, eta):
     """F or V float32 (N,) for the index eta (N,) behind the surface over that before it."""
-    root = (eta - 1) / (eta + 1) / np.float32(2 * _MOST_F0) + np.float32(0.5)
-    places = (_place(root, _INDEX_STEPS), _place(np.sqrt(np.abs(cos)), _COSINES), _place(roughness, _ROUGHNESSES))
+    places = (_index_place(eta), _place(np.sqrt(np.abs(cos)), _COSINES), _place(roughness, _ROUGHNESSES))
     return _looked_up(_fresnel_moments()[name], places)
 
 
 def mean_albedo(roughness):
     """The mean (N,) of A over all wo, weighted by their cosines."""
-    values = _moments()["A"]
-    # The table's steps are those of the root of the cosine: d(cos^2) is in proportion to its cube.
-    mean = np.average(values, axis=0, weights=np.linspace(0, 1, _COSINES) ** 3)
-    return _looked_up(mean.astype(np.float32), (_place(roughness, _ROUGHNESSES),))
+    return _looked_up(_mean("A"), (_place(roughness, _ROUGHNESSES),))
+
+
+def boundary(cos, roughness, eta):
+    """B float32 (N,), and its mean (N,) over all wo, weighted by their cosines."""
+    rough, index = _place(roughness, _ROUGHNESSES), _index_place(eta)
+    return _looked_up(_boundary(), (index, _place(np.sqrt(np.abs(cos)), _COSINES), rough)), _looked_up(_mean("B"), (index, rough))
+
+
+def _index_place(eta):
+    return _place((eta - 1) / (eta + 1) / np.float32(2 * _MOST_F0) + np.float32(0.5), _INDEX_STEPS)
 
 
 def _place(x, count):
@@ -97,7 +105,10 @@ def _looked_up(table, places):
 
 @lru_cache(maxsize=1)
 def _visible():
-    """c and w, (cosines, roughnesses, samples), of stratified visible normals."""
+    """c, cosines of wo, cosines of the normals, and w as a function of the cosine of wi, of stratified visible normals.
+
+    Arrays broadcast to (cosines, roughnesses, samples).
+    """
     u = (np.arange(_STRATA) + 0.5) / _STRATA
     u1, u2 = (a.reshape(1, 1, -1) for a in np.meshgrid(u, u))
     cos = np.square(np.linspace(0.5 / _COSINES**2, 1, _COSINES)).reshape(-1, 1, 1)
@@ -115,28 +126,62 @@ def _visible():
     h = np.stack(np.broadcast_arrays(alpha * x, alpha * t1, np.maximum(z, 0)))
     h /= np.maximum(np.linalg.norm(h, axis=0), np.finfo(float).tiny)
     c = np.clip(sin * h[0] + cos * h[2], 0, 1)
-    z = 2 * c * h[2] - cos
 
     def smith(z):
         z2 = np.square(np.maximum(z, np.finfo(np.float32).tiny))
         return 0.5 * (np.sqrt(1 + alpha * alpha * (1 - np.minimum(z2, 1)) / z2) - 1)
 
-    return c, np.where(z > 0, (1 + smith(cos)) / (1 + smith(cos) + smith(z)), 0)
+    return c, cos, h[2], lambda z: np.where(z > 0, (1 + smith(cos)) / (1 + smith(cos) + smith(z)), 0)
+
+
+def _reflected():
+    """c and w of what the visible normals reflect."""
+    c, cos, up, masked = _visible()
+    return c, masked(2 * c * up - cos)
 
 
 @lru_cache(maxsize=1)
 def _moments():
-    c, w = _visible()
+    c, w = _reflected()
     values = (w, w * (1 - c) ** 5, w * c * (1 - c) ** 6)
     return {name: value.mean(axis=-1).astype(np.float32) for name, value in zip(_NAMES, values)}
 
 
 @lru_cache(maxsize=1)
 def _fresnel_moments():
-    c, w = _visible()
-    roots = np.linspace(-_MOST_F0, _MOST_F0, _INDEX_STEPS)
-    shares = [fresnel_dielectric(c, eta) if eta != 1 else (c <= 0) * 1.0 for eta in (1 + roots) / (1 - roots)]
+    c, w = _reflected()
+    shares = [_share(c, eta) for eta in _indices()]
     return {
         "F": np.array([(w * f).mean(axis=-1) for f in shares], np.float32),
         "V": np.array([f.mean(axis=-1) for f in shares], np.float32),
     }
+
+
+@lru_cache(maxsize=1)
+def _boundary():
+    """B (_INDEX_STEPS, _COSINES, _ROUGHNESSES) float32."""
+    c, cos, up, masked = _visible()
+    reflected, rows = masked(2 * c * up - cos), []
+    for eta in _indices():
+        share = _share(c, eta)
+        down = cos / eta + (refracted_cosine(c, eta) - c / eta) * up
+        rows.append((reflected * share + masked(down) * (1 - share)).mean(axis=-1))
+    return np.array(rows, np.float32)
+
+
+@lru_cache(maxsize=2)
+def _mean(name):
+    """The mean of A (_ROUGHNESSES,) or B (_INDEX_STEPS, _ROUGHNESSES) over all wo, weighted by their cosines."""
+    values = _moments()["A"][None] if name == "A" else _boundary()
+    # The tables' steps are those of the root of the cosine: d(cos^2) is in proportion to its cube.
+    return np.average(values, axis=1, weights=np.linspace(0, 1, _COSINES) ** 3).astype(np.float32).squeeze()
+
+
+def _indices():
+    roots = np.linspace(-_MOST_F0, _MOST_F0, _INDEX_STEPS)
+    return (1 + roots) / (1 - roots)
+
+
+def _share(c, eta):
+    """What a boundary reflects at cosines c; one between equal media nothing."""
+    return fresnel_dielectric(c, eta) if eta != 1 else (c <= 0) * 1.0

@@ -25,7 +25,8 @@ COSINES = np.array((0.25, 0.5, 0.75, 0.9, 1.0))
 COLOUR = (0.8, 0.6, 0.4, 1.0)
 WARM, GREY = 3.0, 0.3
 """Irradiance of the sun [W m^-2] and radiance of the world [W m^-2 sr^-1]."""
-DEPTH = 8
+DEPTH = 64
+"""So many bounces that all light comes out of glass. Through how many it comes depends on the shape of lobes."""
 SMOOTH, ROUGH = 0.03, 0.1
 """By how much albedos may differ, of what is smooth or diffuse, and of what is rough."""
 

@@ -24,8 +24,6 @@ CASES = {
         )
         for r in (0, 0.25, 0.5, 1)
         for m, t, ior in ((0, 0, 1.5), (0, 0, 2.0), (1, 0, 1.5), (0, 1, 1.33))
-        # The roughest glass misses the bar: see `test_closures.SHORTFALLS`.
-        if not (t and r == 1)
     },
     "coat": ("ShaderNodeBsdfPrincipled", {"Base_Color": (0.5, 0.1, 0.1, 1), "Roughness": 0.5, "Coat_Weight": 1}, 0.1),
     **{f"glossy r{r}": ("ShaderNodeBsdfAnisotropic", {"Color": (0.8, 0.8, 0.8, 1), "Roughness": r}, 0.1) for r in (0.25, 1)},

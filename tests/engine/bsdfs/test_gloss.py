@@ -76,13 +76,12 @@ def test_between_the_entries_of_the_table_all_but_half_a_percent_is_reflected_an
     assert min(found) >= 0.995
 
 
-def test_what_is_reflected_catches_a_table_without_room_for_the_kink(monkeypatch):
-    """The rows that the table had before would reflect up to 5 % too little beside n = 1, and 0.06 % too much."""
+def test_what_is_reflected_catches_a_table_that_is_too_coarse(monkeypatch):
     monkeypatch.setattr(gloss, "_NARROW", 12)
     monkeypatch.setattr(gloss, "_WIDTHS", 17)
     gloss._table.cache_clear()
     try:
         with pytest.raises(AssertionError):
-            test_between_the_entries_of_the_table_all_but_half_a_percent_is_reflected_and_never_more(1.0)
+            test_between_the_entries_of_the_table_all_but_half_a_percent_is_reflected_and_never_more(0.5)
     finally:
         gloss._table.cache_clear()

@@ -68,3 +68,44 @@ def test_the_smoothest_and_the_roughest_have_the_sharpest_and_the_widest_lobe():
     assert ggx.exponent_of_reflection(np.float32(0)) == 1e6
     assert ggx.exponent_of_reflection(np.float32(1)) == pytest.approx(0, abs=1e-6)
     assert ggx.exponent_of_refraction(np.float32(0.5), 1.0) == 1e6
+
+
+def sent_on(alpha, cos, eta, side=700):
+    """What a rough boundary sends on of light at this angle, both ways: Walter et al. 2007, eq. 20 and 21, added up over all directions."""
+    u = v = (np.arange(side) + 0.5) / side
+    # Finer towards the horizon and the normal, where cosines are cubic in the numbers.
+    z, weight = np.sin(0.5 * np.pi * u) ** 2, 0.5 * np.pi * np.sin(np.pi * u) / side
+    z, phi = np.meshgrid(z, 2 * np.pi * v, indexing="ij")
+    i = np.array((np.sqrt(1 - cos * cos), 0.0, cos))
+
+    def smith(c):
+        return 0.5 * (np.sqrt(1 + alpha**2 * (1 - c * c) / (c * c)) - 1)
+
+    total = 0.0
+    for sign in (1, -1):
+        o = np.stack((np.sqrt(1 - z * z) * np.cos(phi), np.sqrt(1 - z * z) * np.sin(phi), sign * z))
+        h = i[:, None, None] + (o if sign > 0 else eta * o)
+        size = np.sqrt((h * h).sum(axis=0))
+        h = h / size * np.where(h[2] < 0, -1, 1)
+        hi, ho = np.tensordot(i, h, 1), (o * h).sum(axis=0)
+        d = alpha**2 / (np.pi * ((alpha**2 - 1) * h[2] ** 2 + 1) ** 2)
+        share = fresnel_dielectric(np.clip(hi, 1e-9, 1), eta)
+        both = d / (1 + smith(cos) + smith(z)) / cos
+        refracted = np.where(ho < 0, (1 - share) * both * np.abs(hi * ho) * eta**2 / size**2, 0)
+        f = share * both / 4 if sign > 0 else refracted
+        total += (np.where(hi > 0, f, 0) * weight[:, None]).sum() * 2 * np.pi / side
+    return total
+
+
+@pytest.mark.parametrize("eta", [1.5, 2.5, 1 / 1.5])
+@pytest.mark.parametrize(("roughness", "cos"), [(0.5, 0.9), (0.75, 0.5), (1.0, 0.25), (1.0, 0.9)])
+def test_what_a_rough_boundary_sends_on_is_the_integral_over_all_directions(roughness, cos, eta):
+    found, _ = ggx.boundary(np.array([cos], np.float32), np.float32(roughness), np.float32(eta))
+    assert found[0] == pytest.approx(sent_on(roughness**2, cos, eta), abs=0.01)
+
+
+def test_a_smooth_boundary_sends_on_all():
+    for eta in (1.5, 1 / 1.5):
+        once, mean = ggx.boundary(COSINES, np.float32(0), np.float32(eta))
+        assert once == pytest.approx(1, abs=1e-3)
+        assert mean == pytest.approx(1, abs=1e-3)
