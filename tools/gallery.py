@@ -197,6 +197,12 @@ SECTIONS = (
     ),
 )
 FOOTER = """
+## The twelve materials in Cycles
+
+The same file with the same number of samples, rendered by Cycles in Blender 5.0, for comparison with the picture above.
+
+![The twelve materials by Cycles](images/materials_cycles.png)
+
 ## Sampling
 
 How the zone plate cos(64 r^2) looks under each sampler and pixel filter is in [images/zone_plate.png](images/zone_plate.png), made by
