@@ -11,7 +11,7 @@ import numpy as np
 
 
 class Columns(SimpleNamespace):
-    """A table of parameters: every attribute is an array whose last axis counts the rows."""
+    """A table of parameters: every attribute is an array whose last axis counts the rows. No column is called as a method is."""
 
     def take(self, lanes):
         """The rows `lanes` (M,), as a new table."""
@@ -21,7 +21,7 @@ class Columns(SimpleNamespace):
         """The rows `lanes` (M,), or the only row of a table in which one stands for all."""
         return self if all(column.shape[-1] == 1 for column in vars(self).values()) else self.take(lanes)
 
-    def spread(self, n):
+    def repeated(self, n):
         """A copy with a row for each of n lanes, where one may stand for all."""
         return Columns(**{name: np.array(np.broadcast_to(column, (*column.shape[:-1], n))) for name, column in vars(self).items()})
 

@@ -41,7 +41,7 @@ def fill_in_textures(plan, rays, surface, reflection):
             at = points.met(lambda: surface) if lanes.size == count else points.take(lanes).met(partial(surface.take, lanes))
         for t in textured:
             if t.lobe not in own:
-                own[t.lobe] = lobes[t.lobe].k.spread(count)
+                own[t.lobe] = lobes[t.lobe].k.repeated(count)
             getattr(own[t.lobe], t.column)[..., lanes] = t.value(at)
         tables = [own.get(i, lobe.k).pick(lanes) for i, lobe in enumerate(lobes)]
         albedos = [lobe.bsdf.albedo(k) for lobe, k in zip(lobes, tables)]
@@ -62,7 +62,7 @@ def _limit(lobes, own, count, lanes, rest, total):
         return
     for i, lobe in enumerate(lobes):
         if i not in own:
-            own[i] = lobe.k.spread(count)
+            own[i] = lobe.k.repeated(count)
         for name in _SCALES:
             if hasattr(own[i], name):
                 getattr(own[i], name)[:, lanes.take(over)] *= factor.take(over)

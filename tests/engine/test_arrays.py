@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
-from glanz.engine.arrays import columns, frozen
+from glanz.engine.arrays import Columns, columns, frozen
+from glanz.engine.registry import BSDFS
+from glanz.engine.wavefront import cones, light_path
 
 ROWS = [{"size": 1.0, "colour": (1, 2, 3)}, {"size": 2.0, "colour": (4, 5, 6)}]
 
@@ -42,3 +44,21 @@ def test_a_frozen_array_cannot_be_written_but_its_source_can():
     array = frozen(source, np.float32, (3, None), "mesh 'm'", "points")
     assert not array.flags.writeable
     assert source.flags.writeable
+
+
+def test_one_row_stands_for_all():
+    one, two = columns(ROWS[:1]), columns(ROWS)
+    lanes = np.array([1, 0, 1])
+    assert one.pick(np.zeros(3, np.intp)) is one
+    assert two.pick(lanes).size.tolist() == [2, 1, 2]
+    repeated = one.repeated(3)
+    assert repeated.colour.shape == (3, 3)
+    repeated.size[0] = 7
+    assert repeated.size.tolist() == [7, 1, 1]
+    assert one.size.tolist() == [1]
+
+
+def test_no_parameter_is_called_as_a_method_of_tables():
+    """It would hide the method, and where it is missing the method would be taken for it."""
+    assert not {name for plugin in BSDFS.values() for name in plugin().row()} & set(dir(Columns))
+    assert not {name for carried in (cones.CARRIED, light_path.CARRIED) for name, _ in carried} & set(dir(Columns))
