@@ -2,36 +2,30 @@
 
 import math
 
-from ...engine import Coordinates, LinearTexture, SkyTexture
+from ...engine import Coordinates, SkyTexture
 from .mapping import note_mapping
 
 _DIRECTION = Coordinates(source="generated")
 _MODELS = {
     "PREETHAM": "preetham",
-    "HOSEK_WILKIE": "preetham",
+    "HOSEK_WILKIE": "hosek wilkie",
     "NISHITA": "nishita",
     "SINGLE_SCATTERING": "single scattering",
     "MULTIPLE_SCATTERING": "multiple scattering",
 }
 _SMALLEST_SUN = 0.0005
 """Angular diameter [rad] of the smallest sun in Cycles."""
-_HOSEK_WILKIE = 0.14
-"""What the sky of Hosek and Wilkie gives in Blender, compared to Preetham's: the luminance of a clear sky."""
 
 
 def _sky(reader, node, output):
     note_mapping(reader, node)
     where = {"coordinates": reader.vector(node, _DIRECTION)}
     model = _MODELS[node.sky_type]
-    if model == "preetham":
+    if model in ("preetham", "hosek wilkie"):
         x, y, z = node.sun_direction
         length = math.hypot(x, y, z)
         towards = (x / length, y / length, z / length) if length > 0 else (0.0, 0.0, 1.0)
-        sky = SkyTexture(model, sun_direction=towards, turbidity=node.turbidity, **where)
-        if node.sky_type == "PREETHAM":
-            return sky
-        reader.note("Hosek / Wilkie of Sky Texture is rendered as Preetham, as bright on average, without Ground Albedo")
-        return LinearTexture((sky,), (_HOSEK_WILKIE,))
+        return SkyTexture(model, sun_direction=towards, turbidity=node.turbidity, ground_albedo=node.ground_albedo, **where)
     elevation, rotation = _above(node.sun_elevation, node.sun_rotation)
     return SkyTexture(
         model,

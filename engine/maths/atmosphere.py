@@ -2,6 +2,7 @@
 
 Four wavelengths stand for the spectrum: 630, 560, 490 and 430 nm. Along each ray what is scattered once is added up exactly, what has been
 scattered more often is a fit, and includes what the ground reflects. Lengths in kilometres; the sun stands in the plane of z and x.
+The constants: see LICENSES/MIT.txt.
 """
 
 import numpy as np

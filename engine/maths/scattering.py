@@ -2,6 +2,7 @@
 
 The atmosphere is that of Blender's Nishita sky: air and haze thin out exponentially, ozone absorbs about 25 km above the ground
 (Bruneton 2017), a sun of 21 wavelengths is seen by the CIE 1931 observer. Lengths in kilometres; the sun stands in the plane of z and x.
+Its constants: see LICENSES/Apache-2.0.txt.
 """
 
 import numpy as np

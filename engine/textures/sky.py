@@ -9,6 +9,7 @@ from ..constants import PI
 from ..errors import SceneError
 from ..maths import atmosphere, scattering
 from ..maths.daylight import preetham
+from ..maths.skydome import hosek_wilkie
 from ..maths.vectors import length
 from ..scene.coordinates import GENERATED
 from . import registry
@@ -19,7 +20,8 @@ _ROWS = 128
 """Of the sky above the horizon: the closer to it, the denser."""
 _LIMB = 0.6
 """How much darker the sun is at its edge."""
-MODELS = ("preetham", "nishita", "single scattering", "multiple scattering")
+_SUNLESS = ("preetham", "hosek wilkie")
+MODELS = (*_SUNLESS, "nishita", "single scattering", "multiple scattering")
 _HIGHEST = {"nishita": 59999.0, "single scattering": 59999.0, "multiple scattering": 99999.0}
 
 
@@ -28,8 +30,9 @@ _HIGHEST = {"nishita": 59999.0, "single scattering": 59999.0, "multiple scatteri
 class SkyTexture:
     """The radiance of Blender's sky in the direction `coordinates`, +z up; the scattering models include the sun.
 
-    model          "preetham": see `maths.daylight`; "single scattering": see `maths.scattering`, which Blender called "nishita" up to
-                   version 4.5, where the sun hides the sky; "multiple scattering": see `maths.atmosphere`
+    model          "preetham": see `maths.daylight`; "hosek wilkie": see `maths.skydome`; "single scattering": see `maths.scattering`,
+                   which Blender called "nishita" up to version 4.5, where the sun hides the sky; "multiple scattering": see
+                   `maths.atmosphere`
     has_disk       the sun is seen, and gives light
     sun_size       its angular diameter [rad], above 0 to pi / 2
     sun_intensity  factor of its radiance
@@ -37,7 +40,8 @@ class SkyTexture:
     sun_rotation   from +y towards +x [rad]
     altitude       of the viewer [m]; from 1 m to the end of the atmosphere, 60 km, with multiple scattering 100 km
     air, haze, ozone   densities, 1 as on a clear day
-    sun_direction, turbidity   of "preetham" alone: unit vector; 1 to 10
+    sun_direction, turbidity   of "preetham" and "hosek wilkie" alone: unit vector; 1 to 10
+    ground_albedo  of "hosek wilkie" alone: 0 to 1
     """
 
     key = "sky"
@@ -56,6 +60,7 @@ class SkyTexture:
     ozone: float = 1.0
     sun_direction: tuple = (0.0, 0.0, 1.0)
     turbidity: float = 2.2
+    ground_albedo: float = 0.3
 
     def check(self, owner):
         if self.model not in MODELS:
@@ -69,6 +74,7 @@ class SkyTexture:
             "haze": (0, np.inf),
             "ozone": (0, np.inf),
             "turbidity": (1, 10),
+            "ground_albedo": (0, 1),
         }
         for name, (least, most) in ranges.items():
             value = getattr(self, name)
@@ -79,6 +85,8 @@ class SkyTexture:
         d, _ = at.look_up(self.coordinates)
         if self.model == "preetham":
             return preetham(d, self.sun_direction, self.turbidity)
+        if self.model == "hosek wilkie":
+            return hosek_wilkie(d, self.sun_direction, self.turbidity, self.ground_albedo)
         sky = self._scattered(d)
         if not self.has_disk:
             return sky
@@ -87,7 +95,7 @@ class SkyTexture:
 
     def spots(self):
         """Where the texture is much brighter than around: (unit vector (3,), radius [rad]) of each disk."""
-        return ((self._towards(), 0.5 * self.sun_size),) if self.has_disk and self.model != "preetham" else ()
+        return ((self._towards(), 0.5 * self.sun_size),) if self.has_disk and self.model not in _SUNLESS else ()
 
     def _towards(self):
         flat = np.cos(self.sun_elevation)

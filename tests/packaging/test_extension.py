@@ -31,9 +31,11 @@ def source(tmp_path):
         "__init__.py": "",
         "README.md": "# Glanz",
         "LICENSE": "GPL",
+        "LICENSES/MIT.txt": "MIT",
         "addon/__init__.py": "",
         "addon/presets/a.py": "",
         "engine/__init__.py": "",
+        "engine/maths/skydome.csv": "1,2",
         "engine/__pycache__/x.pyc": "",
         "engine/.hidden": "",
         "tests/test_x.py": "",
@@ -49,7 +51,10 @@ def source(tmp_path):
     return root
 
 
-CODE = {"__init__.py", "README.md", "LICENSE", "addon/__init__.py", "addon/presets/a.py", "engine/__init__.py", "blender_manifest.toml"}
+CODE = {
+    "__init__.py", "README.md", "LICENSE", "LICENSES/MIT.txt", "addon/__init__.py", "addon/presets/a.py", "engine/__init__.py",
+    "engine/maths/skydome.csv", "blender_manifest.toml",
+}  # fmt: skip
 
 
 @pytest.mark.skipif(importlib.util.find_spec("bpy") is None, reason="bpy, which brings the builder, is not installed for this Python")

@@ -21,6 +21,21 @@ def test_every_folder_with_code_is_in_the_package():
     assert set(PROJECT["tool"]["setuptools"]["packages"]) == folders
 
 
+def test_what_others_have_licensed_is_packed_with_its_notice():
+    data = {path for path in (ROOT / "engine").rglob("*") if path.is_file() and path.suffix not in (".py", ".pyc")}
+    patterns = PROJECT["tool"]["setuptools"]["package-data"]
+    assert data == {path for package, globs in patterns.items() for glob in globs for path in _folder(package).glob(glob)}
+    licences = {path.stem for path in (ROOT / "LICENSES").glob("*.txt")}
+    assert {licence.removeprefix("SPDX:") for licence in MANIFEST["license"]} == {"GPL-3.0-or-later", *licences}
+    assert set(PROJECT["project"]["license"].split(" AND ")) == {"GPL-3.0-or-later", *licences}
+    assert "LICENSES/*.txt" in PROJECT["project"]["license-files"]
+    assert all(f"LICENSES/{licence}.txt" in (ROOT / "README.md").read_text(encoding="utf-8") for licence in licences)
+
+
+def _folder(package):
+    return ROOT.joinpath(*package.split(".")[1:])
+
+
 def test_the_version_is_the_same_everywhere():
     latest = re.search(r"^## (\d\S+)", (ROOT / "CHANGELOG.md").read_text(), re.MULTILINE)[1]
     assert {PROJECT["project"]["version"], MANIFEST["version"], engine.__version__, VERSION, latest} == {"0.1.0"}

@@ -18,6 +18,8 @@ SKIES = {
     "multiple, past zenith": ("MULTIPLE_SCATTERING", {"sun_size": 0.3, "sun_intensity": 0.5, "sun_elevation": 2.5, **AIR}),
     "multiple, sun has set": ("MULTIPLE_SCATTERING", {"sun_size": 0.1, "sun_elevation": -0.06, "sun_rotation": 4.0}),
     "preetham": ("PREETHAM", {"sun_direction": (0.3, 0.5, 0.6), "turbidity": 3.0}),
+    "hosek wilkie": ("HOSEK_WILKIE", {"sun_direction": (0.3, 0.5, 0.6), "turbidity": 3.7, "ground_albedo": 0.4}),
+    "hosek wilkie, sun has set": ("HOSEK_WILKIE", {"sun_direction": (0.6, -0.5, -0.1), "turbidity": 10.0, "ground_albedo": 1.0}),
 }
 each = pytest.mark.parametrize(("model", "values"), SKIES.values(), ids=SKIES)
 

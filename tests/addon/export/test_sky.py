@@ -3,7 +3,7 @@
 import bpy
 import pytest
 
-from glanz.engine import LinearTexture, SkyTexture
+from glanz.engine import LinearTexture
 from glanz.tests.addon import blender
 from glanz.tests.parity.test_sky import set_sky
 
@@ -34,11 +34,10 @@ def test_a_sun_without_a_size_is_the_smallest_of_cycles():
     assert exported("SINGLE_SCATTERING", sun_size=0.0)[0].sun_size == pytest.approx(0.0005)
 
 
-def test_hosek_wilkie_is_named():
-    sky, warnings = exported("HOSEK_WILKIE", turbidity=4.0)
-    assert type(sky) is SkyTexture
-    assert sky.model == "preetham"
-    assert any("Hosek" in warning for warning in warnings)
+def test_hosek_wilkie_has_haze_and_ground():
+    sky, warnings = exported("HOSEK_WILKIE", turbidity=4.0, ground_albedo=0.6)
+    assert warnings == ()
+    assert (sky.model, sky.turbidity, sky.ground_albedo) == ("hosek wilkie", 4.0, pytest.approx(0.6))
 
 
 def test_a_sky_can_be_turned_by_a_mapping():

@@ -6,6 +6,8 @@ from scipy.integrate import quad
 
 from glanz.engine.maths import atmosphere, scattering
 from glanz.engine.maths.daylight import preetham
+from glanz.engine.maths.observer import FROM_XYZ
+from glanz.engine.maths.skydome import hosek_wilkie
 
 LOOK = np.radians([3.0, 20.0, 80.0]), np.radians([0.0, 60.0, 170.0])
 MODELS = {"single": scattering.single_scattering, "multiple": atmosphere.multiple_scattering}
@@ -77,3 +79,31 @@ def test_the_zenith_is_as_bright_as_preetham_says(turbidity):
     chi = (4 / 9 - turbidity / 120) * (np.pi - 2 * sun)
     expected = 0.06 * ((4.0453 * turbidity - 4.9710) * np.tan(chi) - 0.2155 * turbidity + 2.4192)
     assert np.dot((0.2126729, 0.7151522, 0.0721750), L) == pytest.approx(expected, rel=1e-4)
+
+
+# Of the published data set: Z under a sun in the zenith, over a white ground, at the turbidity of 10: A B C D E F G I H, and the mean.
+PUBLISHED = (-0.9863181, -0.1803364, 0.5810824, 4.580570, -3.863454, 0.5328174, 0.2272821, 1.771114, 0.6791814, 31.10255)
+
+
+@pytest.mark.parametrize("theta", [0.0, 0.6, 1.4])
+def test_the_sky_of_hosek_and_wilkie_is_their_formula_with_their_numbers(theta):
+    L = hosek_wilkie(np.array([[np.sin(theta)], [0.0], [np.cos(theta)]], np.float32), (0.0, 0.0, 1.0), 10.0, 1.0)[:, 0]
+    A, B, C, D, E, F, G, I, H, mean = PUBLISHED  # noqa: E741
+    c = np.cos(theta)
+    chi = (1 + c * c) / (1 + H * H - 2 * H * c) ** 1.5
+    expected = (1 + A * np.exp(B / (c + 0.01))) * (C + D * np.exp(E * theta) + F * c * c + G * chi + I * np.sqrt(c)) * mean
+    assert np.linalg.solve(FROM_XYZ, L)[2] == pytest.approx(2 * np.pi / 683 * expected, rel=1e-4)
+
+
+def test_the_sky_of_hosek_and_wilkie_changes_evenly_with_haze_and_ground():
+    """Coefficients are linear between data, so that half a step is close to the mean of its ends; where data meet nothing jumps."""
+
+    def seen(turbidity, albedo):
+        return hosek_wilkie(np.array([[0.6], [0.0], [0.8]], np.float32), (0.0, 0.6, 0.8), turbidity, albedo)
+
+    for (a, b), middle in ((((3.0, 0.2), (3.2, 0.2)), (3.1, 0.2)), (((5.0, 0.4), (5.0, 0.6)), (5.0, 0.5))):
+        low, high = seen(*a), seen(*b)
+        np.testing.assert_allclose(seen(*middle), (low + high) / 2, rtol=1e-3)
+        assert (np.abs(low / high - 1) > 5e-3).all()
+    for turbidity in range(2, 10):
+        np.testing.assert_allclose(seen(turbidity - 1e-4, 0.3), seen(turbidity + 1e-4, 0.3), rtol=1e-3)
