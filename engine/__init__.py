@@ -30,7 +30,7 @@ from .lights.point import PointLight
 from .lights.spot import SpotLight
 from .lights.sun import SunLight
 from .registry import FILTERS, INTEGRATORS, PASSES, SAMPLERS, TEXTURES
-from .rendering import Image, Progress, Tile, metadata, render, render_image
+from .rendering import Image, Progress, Tile, metadata, prepare, render, render_image, render_plan
 from .requirements import Requirements
 from .scene import Bitmap, Coordinates, EnvironmentMap, Lens, Material, Medium, Mesh, MeshAttribute, Object, Scene, Settings, World
 from .scene.points import average_of
@@ -187,9 +187,11 @@ __all__ = [
     "folded",
     "is_texture",
     "metadata",
+    "prepare",
     "read_scene",
     "render",
     "render_image",
+    "render_plan",
     "textures_of",
     "write_exr",
     "write_scene",

@@ -1,16 +1,23 @@
 """From what a scene needs to what is run: tuples of stages, empty for what is absent."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
+
+import numpy as np
 
 from . import needs
 from .arrays import Columns, columns
+from .constants import EPS32
 from .interfaces import is_straight
+from .maths.vectors import length
 from .registry import FILTERS, INTEGRATORS, PASSES, SAMPLERS
+from .requirements import Requirements
 from .scene.settings import Settings
+from .scene.validate import check_camera
+from .scene.values import Scene
 from .wavefront import dispersion, light_path, media
 from .wavefront.adaptive import AdaptiveTile
-from .wavefront.camera_rays import bladed_aperture, round_aperture, through_the_lens, through_the_pinhole
+from .wavefront.camera_rays import bladed_aperture, round_aperture, seen_from, start_at, through_the_lens, through_the_pinhole
 from .wavefront.clip import clip_row, start_in_range, to_the_end_of_range
 from .wavefront.cones import (
     CARRIED,
@@ -44,7 +51,7 @@ from .wavefront.texturing import fill_in_textures
 from .wavefront.tiles import EvenTile
 from .wavefront.visibility import all_of_it, all_the_way, closest, interact_at_rest, occluded, seen_at_rest, travel, unblocked
 from .world.compile import CompiledWorld, compile_world
-from .world.interaction import flat_normals, leave_in_front, leave_on_either_side, smooth_normals
+from .world.interaction import START_ULPS, flat_normals, leave_in_front, leave_on_either_side, smooth_normals
 from .world.materials import TwoSided
 from .world.passing import Passing
 from .world.poses import Path, Poses
@@ -54,6 +61,7 @@ from .world.poses import Path, Poses
 class Plan:
     """Everything that stays the same while a picture is rendered.
 
+    place              where the camera is in render space, (3,): mostly in its middle
     carry              what paths carry along: (name, first column (plan, rays)) of each
     aim                origins and directions (plan, rays, x, y) of camera rays
     camera_poses       where the camera is over the time that the shutter is open, see `world.poses`; None: it stands still
@@ -82,8 +90,11 @@ class Plan:
     The other functions are choices that cost nothing where there is nothing to choose.
     """
 
+    scene: Scene
     settings: Settings
+    requirements: Requirements
     world: CompiledWorld
+    place: np.ndarray
     numbers: Numbers
     filter: type
     camera: type
@@ -123,8 +134,12 @@ class Plan:
     last_depth: int
 
     @classmethod
-    def of(cls, scene, settings, requirements):
-        """Compile `scene` and keep what `requirements` ask for."""
+    def of(cls, scene, settings, requirements, world=None, before=None):
+        """Compile `scene` and keep what `requirements` ask for.
+
+        world   what comes of compiling it, where that is known
+        before  the `CompiledWorld` of the scene as it was, see `compile_world`
+        """
         smooth = needs.SMOOTH_NORMALS in requirements
         integrator = INTEGRATORS[settings.integrator]
         absorbs, is_nested = needs.ABSORPTION in requirements, needs.NESTED_MEDIA in requirements
@@ -138,8 +153,8 @@ class Plan:
         # What rays pass on their way is no lobe for them to choose where they end.
         are_passed = passes and not integrator.tints_glass
         bsdfs = tuple(bsdf for bsdf in requirements.plugins("bsdf") if not (are_passed and is_straight(bsdf)))
-        world = compile_world(
-            scene, bsdfs, smooth, has_choice, integrator.samples_lights, has_media, has_environment, steps, passing_of, disperses
+        world = world or compile_world(
+            scene, bsdfs, smooth, has_choice, integrator.samples_lights, has_media, has_environment, steps, passing_of, disperses, before
         )
         can_reflect = bool(world.materials.lobes)
         on_rays = (
@@ -163,11 +178,15 @@ class Plan:
         interact = interact_at_time if world.movers else interact_at_rest
         camera = scene.camera
         scale = world.frame.scale
+        place = world.frame.points(camera.position[:, None])[:, 0]
         row = camera.row(settings.width, settings.height, scale) | (clip_row(camera, scale) if is_clipped else {})
         chosen = tuple(PASSES[key] for key in settings.passes)
         return cls(
+            scene=scene,
             settings=settings,
+            requirements=requirements,
             world=world,
+            place=place,
             numbers=Numbers(SAMPLERS[settings.sampler], settings.samples),
             filter=FILTERS[settings.pixel_filter],
             camera=type(camera),
@@ -187,7 +206,7 @@ class Plan:
             on_camera_rays=(
                 *((start_in_range,) if is_clipped else ()),
                 *((start_cones_in_range,) if is_clipped and has_cones else ()),
-                *((follow_camera,) if follows else ()),
+                *((follow_camera,) if follows else (start_at(place),) if place.any() else ()),
                 *((media.start_inside(nearest),) if has_media else ()),
             ),
             closest=media.through_media(nearest) if is_nested else nearest,
@@ -198,7 +217,7 @@ class Plan:
             shadow_rays=shadow_rays_on_either_side if world.materials.kind is TwoSided else shadow_rays_in_front,
             unblocked=unblocked_through if tints else media.absorbed(unblocked) if absorbs else unblocked,
             left=media.left_by_media if absorbs else all_of_it,
-            seen_from_camera=seen_from_camera if follows else seen_at_rest,
+            seen_from_camera=seen_from_camera if follows else seen_from(place) if place.any() else seen_at_rest,
             on_rays=on_rays,
             on_rays_beyond=tuple(_BEYOND.get(stage, stage) for stage in on_rays),
             on_passing=(*((media.pass_boundary,) if has_media else ()), *((light_path.count_passed,) if has_past else ())),
@@ -230,7 +249,41 @@ class Plan:
             last_depth=settings.max_depth + bool({*on_rays} - {media.absorb} and integrator.is_complete) if can_reflect else 0,
         )
 
+    def seen_from(self, camera, settings):
+        """The plan for another `camera`, or settings that differ in what concerns the film alone: nothing is compiled again.
 
+        Render space stays where it is, so what a camera looks at closely and far from its middle is not exact: see `is_exact`.
+        Raises SceneError where the camera cannot be used.
+        """
+        check_camera(camera)
+        scene = replace(self.scene, camera=camera)
+        return Plan.of(scene, settings, self.requirements.seen_from(camera), world=self.world.seen_from(camera))
+
+    def is_exact(self):
+        """Whether what the camera sees is rounded to well below a pixel, wherever the middle of render space is.
+
+        Looked at along a grid of rays. What counts is how far rays start off surfaces, which is in proportion to that rounding.
+        """
+        if not self.place.any():
+            return True
+        settings = self.settings
+        x, y = (((np.arange(_GRID) + 0.5) / _GRID - 0.5) * side for side in (settings.width, settings.height))
+        x, y = (side.ravel().astype(np.float32) for side in np.meshgrid(x, y))
+        (o, d), beside = self.camera.rays(self.camera_k, x, y), self.camera.rays(self.camera_k, x + 1, y)
+        d = np.ascontiguousarray(d, np.float32)
+        hits = self.world.accel.closest((o + self.place[:, None]).astype(np.float32), d)
+        met = np.nonzero(hits.prim >= 0)[0]
+        o, d, across, along = (a.take(met, axis=1) for a in (o, d, *beside))
+        t = hits.t.take(met)
+        pixel = length(across + t * along - o - t * d)
+        offset = START_ULPS * EPS32 * np.abs(o + t * d + self.place[:, None]).max(axis=0)
+        return np.count_nonzero(offset * _PER_PIXEL > pixel) * _GRID <= met.size
+
+
+_GRID = 16
+"""Rows and columns of rays that `Plan.is_exact` looks along; a row may be inexact."""
+_PER_PIXEL = 4
+"""Rays may start so many times less than a pixel off surfaces."""
 _BEYOND = {
     add_light_hits: add_light_hits_beyond,
     media.add_light_hits_in_media: media.add_light_hits_in_media_beyond,

@@ -5,6 +5,7 @@ import threading
 import time
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 
@@ -73,20 +74,39 @@ def render(scene, settings):
     yield from render_plan(plan)
 
 
-def render_plan(plan):
-    """`render` for a `Plan` that is made already."""
+def prepare(scene, settings, before=None):
+    """(plan, warnings): what `render_plan` renders a scene by, to be used again for other cameras, see `Plan.seen_from`.
+
+    before  the plan of the scene as it was, if any: what has not changed is taken over from it
+    Raises SceneError for what cannot be rendered.
+    """
+    scene, warnings = validate(scene, settings)
+    plan = Plan.of(scene, settings, Requirements.of(scene, settings), before=before and before.world)
+    return plan, (*warnings, *plan.world.warnings)
+
+
+def render_plan(plan, ends=(), cancelled=None):
+    """`render` for a `Plan` that is made already.
+
+    ends       numbers of samples, rising: the whole frame gets as many before any pixel gets more. Tiles come once for each,
+               unfinished but for the last; without, each comes when it has all. Where pixels are divided `ends` count for nothing
+    cancelled  a `threading.Event` that other threads may set: what is begun is given up within a batch's bounce, and it ends
+    """
     settings = plan.settings
-    tiles = _tiles(settings, plan.tile.longest_side(settings))
-    work = _Work(tiles)
-    workers = min(settings.threads or os.cpu_count() or 1, len(tiles))
+    places = _tiles(settings, plan.tile.longest_side(settings))
+    work = _Work(places, cancelled or threading.Event())
+    begin, end = settings.rendered_samples
+    edges = (begin, *(e for e in ends if begin < e < end and plan.tile.most_rounds(settings) == 1), end)
+    workers = min(settings.threads or os.cpu_count() or 1, len(places))
     with ThreadPoolExecutor(workers, thread_name_prefix="glanz") as pool:
         try:
-            pending = {pool.submit(_render_tile, plan, tile, work) for tile in tiles}
-            while pending:
-                finished, pending = wait(pending, POLL_SECONDS, FIRST_COMPLETED)
-                # First the unfinished: a tile among them may be finished by now.
-                tiles = (*work.take_unfinished(), *(future.result() for future in finished))
-                yield Progress(work.done, tiles, work.take_warnings())
+            for samples in pairwise(edges):
+                pending = {pool.submit(_render_tile, plan, place, work, samples) for place in places}
+                while pending:
+                    finished, pending = wait(pending, POLL_SECONDS, FIRST_COMPLETED)
+                    # First the unfinished: a tile among them may be finished by now.
+                    tiles = (*work.take_unfinished(), *(future.result() for future in finished))
+                    yield Progress(work.done, tuple(tile for tile in tiles if tile), work.take_warnings())
         finally:
             work.cancelled.set()
             pool.shutdown(wait=True, cancel_futures=True)
@@ -128,10 +148,11 @@ def metadata(scene, settings):
 
 
 class _Work:
-    """What the threads of one render share."""
+    """What the threads of one render share; `tiles` are those that are begun, by their place."""
 
-    def __init__(self, tiles):
-        self.cancelled = threading.Event()
+    def __init__(self, tiles, cancelled):
+        self.cancelled = cancelled
+        self.tiles = {}
         self._lock = threading.Lock()
         self._pixels = sum(width * height for _, _, width, height in tiles)
         self._finished = {}
@@ -177,14 +198,17 @@ def _tiles(settings, longest_side):
     return sorted(tiles, key=lambda tile: max(abs(tile[0] + 0.5 * tile[2] - cx), abs(tile[1] + 0.5 * tile[3] - cy)))
 
 
-def _render_tile(plan, place, work):
-    tile = plan.tile(plan, place)
+def _render_tile(plan, place, work, samples):
+    """The `Tile` at `place` after `samples`, from the first to an end; None where it was cancelled."""
+    if work.cancelled.is_set():
+        return None
+    tile = work.tiles.pop(place, None) or plan.tile(plan, place)
     begin, end = plan.settings.rendered_samples
     weights = sample_weights(plan.filter, plan.settings.samples)
     shown = time.monotonic()
     for number, (film, pixels) in enumerate(tile.rounds()):
-        paths = 0
-        for window, first, count in _batches(pixels.px.size, begin, end):
+        paths = pixels.px.size * (samples[0] - begin)
+        for window, first, count in _batches(pixels.px.size, *samples):
             film.open(count, window, weights[first : first + count])
             rays = camera_rays(plan, pixels.part(window), first, count)
             if not trace(plan, rays, film, work.cancelled.is_set):
@@ -196,6 +220,10 @@ def _render_tile(plan, place, work):
                 work.show(_tile(place, tile.result(), is_final=False))
                 shown = time.monotonic()
         work.count_bad(film.bad_samples)
+        film.bad_samples = 0
+    if samples[1] < end:
+        work.tiles[place] = tile
+        return _tile(place, tile.result(), is_final=False)
     work.finish(place, 1)
     return _tile(place, tile.result(), is_final=True)
 

@@ -35,12 +35,8 @@ class Requirements:
             ask(needs.of_plugin("pass", PASSES[key]), "settings")
         if settings.adaptive_threshold:
             ask(needs.ADAPTIVE, "settings")
-        camera = scene.camera
-        ask(needs.of_plugin("camera", type(camera)), camera.name)
-        if camera.lens.is_open:
-            ask(needs.LENS, camera.name)
-        if camera.clip_start > 0 or camera.clip_end < math.inf:
-            ask(needs.CLIP_RANGE, camera.name)
+        for need in _needs_of(scene.camera):
+            ask(need, scene.camera.name)
         inside = {o: inside_of(o) for o in scene.objects}
         for o in sharing_space([o for o in scene.objects if inside[o]]):
             ask(needs.NESTED_MEDIA, o.name)
@@ -49,8 +45,6 @@ class Requirements:
                 ask(needs.ABSORPTION, material.name)
             if any(getattr(lobe, "spread", 0) and may_reflect(lobe) for lobe in map(averaged, material.lobes)):
                 ask(needs.DISPERSION, material.name)
-        if len(camera.motion):
-            ask(needs.CAMERA_MOTION, camera.name)
         for o in scene.objects:
             if not o.mesh.triangles.shape[1]:
                 continue
@@ -101,6 +95,12 @@ class Requirements:
                 ask(needs.LIGHT_CHOICE, name)
         return cls({need: tuple(names) for need, names in found.items()})
 
+    def seen_from(self, camera):
+        """The same with another camera."""
+        own = {needs.LENS, needs.CLIP_RANGE, needs.CAMERA_MOTION, *(needs.of_plugin("camera", p) for p in CAMERAS.values())}
+        rest = {need: names for need, names in self.needs.items() if need not in own}
+        return Requirements(rest | dict.fromkeys(_needs_of(camera), (camera.name,)))
+
     @classmethod
     def everything(cls, scene, settings):
         """As if every feature were asked for: what an engine does that does not look first. For tests and benchmarks."""
@@ -126,6 +126,16 @@ class Requirements:
     def __str__(self):
         width = max(map(len, self.needs), default=0)
         return "\n".join(f"{need:<{width}}  {_shortened(names)}" for need, names in self.needs.items())
+
+
+def _needs_of(camera):
+    """What a camera asks for, all by itself."""
+    return (
+        needs.of_plugin("camera", type(camera)),
+        *((needs.LENS,) if camera.lens.is_open else ()),
+        *((needs.CLIP_RANGE,) if camera.clip_start != 0 or camera.clip_end < math.inf else ()),
+        *((needs.CAMERA_MOTION,) if len(camera.motion) else ()),
+    )
 
 
 def _shortened(names, most=4):

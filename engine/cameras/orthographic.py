@@ -20,12 +20,13 @@ class OrthographicCamera:
 
     world_from_camera     (4, 4), a rotation and a translation [m]
     window                (left, right, bottom, top) of what is seen of the plane [m]; not centred for a shifted camera
-    clip_start, clip_end  camera rays meet only what is so far away along the axis [m]
+    clip_start, clip_end  camera rays meet only what is so far away along the axis [m]; what is behind the plane is below 0
     lens                  a `Lens`, at every point of the plane; the default is a pinhole
     motion                (K, 4, 4) world_from_camera at equally spaced times, the first and the last included, while the shutter
                           is open; none (0, 4, 4): it stands still. `world_from_camera` is then set to the middle
     """
 
+    least_clip_start = -math.inf
     key = "orthographic"
     label = "Orthographic"
 

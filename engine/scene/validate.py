@@ -28,7 +28,11 @@ def validate(scene, settings):
     ):
         if key not in registry:
             raise SceneError(f"unknown {registry.kind} '{key}'; known: {', '.join(registry)}")
-    _check_camera(scene)
+    if scene.camera is None:
+        raise SceneError(f"scene '{scene.name}' has no camera")
+    if type(scene.camera) not in CAMERAS.values():
+        raise SceneError(f"scene '{scene.name}': {type(scene.camera).__name__} is not a camera")
+    check_camera(scene.camera)
     warnings = []
     objects = tuple(checked for o in scene.objects if (checked := _check_object(o, warnings)))
     kept_lights = tuple(light for light in scene.lights if _check_light(light, warnings))
@@ -39,18 +43,18 @@ def validate(scene, settings):
     return dataclasses.replace(scene, objects=objects, lights=kept_lights, world=world), tuple(warnings)
 
 
-def _check_camera(scene):
-    camera = scene.camera
-    if camera is None:
-        raise SceneError(f"scene '{scene.name}' has no camera")
-    if type(camera) not in CAMERAS.values():
-        raise SceneError(f"scene '{scene.name}': {type(camera).__name__} is not a camera")
+def check_camera(camera):
+    """Raises SceneError for a camera that sees nothing: it is not finite, or out of range."""
     if not np.isfinite(camera.world_from_camera).all() or not np.linalg.det(camera.world_from_camera[:3, :3]):
         raise SceneError(f"camera '{camera.name}': its transform is not finite or flattens space")
     if not np.isfinite(camera.motion).all() or not np.linalg.det(camera.motion[:, :3, :3]).all():
         raise SceneError(f"camera '{camera.name}': its motion is not finite or flattens space")
-    if not (0 <= camera.clip_start < camera.clip_end):
-        raise SceneError(f"camera '{camera.name}': clip range is {camera.clip_start} to {camera.clip_end}, allowed: 0 <= start < end")
+    # Parallel rays may start behind the camera as well.
+    least = getattr(camera, "least_clip_start", 0.0)
+    if not (least <= camera.clip_start < camera.clip_end and math.isfinite(camera.clip_start)):
+        raise SceneError(
+            f"camera '{camera.name}': clip range is {camera.clip_start} to {camera.clip_end}, allowed: {least:g} <= start < end"
+        )
     camera.lens.check(camera.name)
     camera.check()
 

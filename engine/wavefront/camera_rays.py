@@ -55,6 +55,22 @@ def through_the_lens(plan, rays, x, y):
     return plan.camera.lens_rays(k, x, y, lens)
 
 
+def start_at(place):
+    """The stage (plan, rays) for a camera that is not in the middle of render space, but at `place` (3,)."""
+    place = np.array(place, np.float32)[:, None]
+
+    def start_at_camera(plan, rays):
+        rays.o[...] += place
+
+    return start_at_camera
+
+
+def seen_from(place):
+    """Points (plan, rays, p) of render space as a camera at `place` (3,) sees them: from there."""
+    place = np.array(place, np.float32)[:, None]
+    return lambda plan, rays, p: p - place
+
+
 def round_aperture(k, u2):
     """Points (2, N), uniform on the unit disk."""
     return square_to_disk(u2)

@@ -66,6 +66,10 @@ class Accel:
             # The tree is built at the first query: do it now, where one thread runs and errors have a name.
             self.closest(np.zeros((3, 1), np.float32), np.ones((3, 1), np.float32))
 
+    def is_of(self, vertices, triangles):
+        """Whether it was made of these vertices (3, V) and triangles (3, F)."""
+        return all(np.array_equal(own, other.T) for own, other in zip(self._arrays, (vertices, triangles)))
+
     def closest(self, o, d, limit=None):
         """The nearest triangle along each ray: o, d (3, N) float32, d unit; returns `Hits`.
 

@@ -1,6 +1,6 @@
 """Scene values to one merged mesh, tables of materials and lights, and Embree's tree."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -86,6 +86,14 @@ class CompiledWorld:
     camera: CameraSpace
     warnings: tuple
 
+    def seen_from(self, camera):
+        """The same world with another camera, in the same render space."""
+        space = CameraSpace.of(camera, self.frame)
+        if self.glow is EVEN:
+            return replace(self, camera=space)
+        glow = replace(self.glow, camera=space)
+        return replace(self, camera=space, glow=glow, lights=self.lights.with_glow(glow))
+
 
 # Corners may be anything; what is not finite after all is found by `_measure` and told.
 @np.errstate(over="ignore", invalid="ignore")
@@ -100,6 +108,7 @@ def compile_world(
     motion_steps=0,
     passing_of=None,
     disperses=False,
+    before=None,
 ):
     """`scene` (validated) as a `CompiledWorld`.
 
@@ -107,8 +116,9 @@ def compile_world(
     be more than one light, `samples_lights` that shadow rays look for them, `has_media` that it matters what is inside of
     bodies, `has_environment` that the world has a picture that gives light, `disperses` that indices depend on the
     wavelength, and `passing_of` (None: nothing passes) makes the `Passing` of the materials. Deforming meshes take
-    `motion_steps` shapes, and without any all is as at the middle of the shutter. Raises SceneError where the geometry does
-    not fit into memory.
+    `motion_steps` shapes, and without any all is as at the middle of the shutter. `before`, a world of the scene as it was, lends
+    the origin of its render space, which is else the camera, and its tree if no triangle is another. Raises SceneError where
+    the geometry does not fit into memory.
     """
     materials, row = _number_materials(scene)
     table = Materials.of(materials, bsdfs, () if disperses else ("spread",))
@@ -116,7 +126,7 @@ def compile_world(
     changing = [(i, o) for i, o in enumerate(scene.objects) if motion_steps and o.mesh.triangles.size and not o.is_still]
     moving = [Moving.of(i, o, row, smooth, motion_steps) for i, o in changing]
     parts = [*still, *(part for m in moving for part in m.parts)]
-    frame, vertices, indices, radius = _merge(still, moving, scene.camera.position)
+    frame, vertices, indices, radius = _merge(still, moving, before.frame.origin if before else scene.camera.position)
     material = _concatenate([part.material for part in parts], 0).astype(np.intp)
     owner = _concatenate([part.owner for part in parts], 0).astype(np.intp)
     bodies = Bodies.of(scene.objects) if has_media else None
@@ -149,7 +159,8 @@ def compile_world(
         first_moving=np.count_nonzero(rank < _MOVES),
     )
     try:
-        accel = Accel(vertices, indices[:, : triangles.first_moving])
+        at_rest = vertices, indices[:, : triangles.first_moving]
+        accel = before.accel if before and before.accel.is_of(*at_rest) else Accel(*at_rest)
         movers = _movers(moving, parts, frame, vertices, indices, keep) if moving else None
     except AccelError as error:
         raise SceneError(f"scene '{scene.name}': {error}") from error

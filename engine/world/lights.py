@@ -1,7 +1,7 @@
 """All lights of a world as one light: choose one, sample it, and know the density of having done so."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -114,6 +114,10 @@ class Lights:
             are_sampled and len(hittable) > MOST_ASKED,
             len(lamps),
         )
+
+    def with_glow(self, glow):
+        """The same lights, whose textured patches shine with `glow`."""
+        return replace(self, groups=tuple(group if group.glow is EVEN else replace(group, glow=glow) for group in self.groups))
 
     @property
     def is_empty(self):

@@ -39,13 +39,13 @@ class Path:
 
     @classmethod
     def of_camera(cls, camera, frame):
-        """Of a camera: its local frame is render space, as it is at the middle of the shutter."""
+        """Of a camera: its local frame is render space, as it is at the middle of the shutter, but centred on its position."""
         if not len(camera.motion):
             still = Keys.of(np.repeat(np.eye(4)[None], 2, axis=0))
-            return cls(still.rotation, still.stretch, np.zeros((3, 2)), np.zeros((3, 2)))
+            return cls(still.rotation, still.stretch, np.zeros((3, 2)), np.repeat(frame.points(camera.position[:, None]), 2, axis=1))
         middle, keys = np.asarray(camera.world_from_camera, np.float64), Keys.of(camera.motion)
         local = np.linalg.inv(middle[:3, :3])
-        # Render space is centred on the camera's position, which for some cameras is not the origin of their frame.
+        # The camera's position is for some cameras not the origin of their frame.
         anchor = local @ (camera.position - middle[:3, 3])
         return cls.of(keys, middle[:3, :3], anchor, frame)
 

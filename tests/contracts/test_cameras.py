@@ -200,7 +200,7 @@ def test_lights_beyond_the_clip_range_are_not_seen(plugin):
 
 
 BAD = {
-    "clip range is -1": {"clip_start": -1.0},
+    "clip range is -inf": {"clip_start": -math.inf},
     "clip range is nan": {"clip_start": math.nan},
     "clip range is 0.0 to nan": {"clip_end": math.nan},
     "clip range is 5.0 to 5.0": {"clip_start": 5.0, "clip_end": 5.0},

@@ -6,7 +6,7 @@ import threading
 import numpy as np
 import pytest
 
-from glanz.engine import GlanzError, Requirements, SceneError, render, render_image, rendering
+from glanz.engine import GlanzError, Requirements, SceneError, prepare, render, render_image, render_plan, rendering
 from glanz.engine.integrators.path import Path
 from glanz.engine.wavefront import direct, passing, visibility
 from glanz.tests import helpers as h, scenes
@@ -215,3 +215,36 @@ def test_the_consumer_is_woken_while_a_tile_takes_long(monkeypatch):
     assert all(not progress.tiles for progress in empty)
     release.set()
     assert list(generator)[-1].done == 1
+
+
+def test_the_frame_refines_in_rounds_to_the_same_bits():
+    """After each round the whole frame has that many samples, and shows their mean; the last picture is that of one round."""
+    plan, _ = prepare(scenes.everything(), h.replaced(SETTINGS, samples=7))
+    rounds, image = [], np.zeros((20, 24, 4), np.float32)
+    for progress in render_plan(plan, ends=(1, 3)):
+        for tile in progress.tiles:
+            image[tile.y : tile.y + tile.height, tile.x : tile.x + tile.width] = tile.passes["Combined"]
+            rounds.append(tile.is_final)
+            if len(rounds) % 9 == 0:
+                assert progress.done == pytest.approx((1 / 7, 3 / 7, 1)[len(rounds) // 9 - 1])
+                part = h.replaced(plan.settings, sample_range=(0, (1, 3, 7)[len(rounds) // 9 - 1]))
+                assert h.same_bits(np.moveaxis(image[..., :3], 2, 0), h.pixels(scenes.everything(), part))
+    assert rounds == [False] * 18 + [True] * 9
+
+
+def test_rounds_count_for_nothing_where_pixels_are_divided():
+    plan, _ = prepare(scenes.everything(), h.replaced(SETTINGS, adaptive_threshold=0.1, samples=2, adaptive_levels=1))
+    image = np.zeros((20, 24, 4), np.float32)
+    for tile in final_tiles(render_plan(plan, ends=(1,))):
+        image[tile.y : tile.y + tile.height, tile.x : tile.x + tile.width] = tile.passes["Combined"]
+    assert h.same_bits(np.moveaxis(image[..., :3], 2, 0), h.pixels_of_plan(plan))
+
+
+def test_who_sets_the_event_ends_the_render():
+    plan, _ = prepare(scenes.everything(), h.replaced(SETTINGS, width=64, height=64, samples=2**20))
+    cancelled = threading.Event()
+    for progress in render_plan(plan, ends=[2**i for i in range(20)], cancelled=cancelled):
+        if progress.tiles:
+            cancelled.set()
+    assert progress.done < 1
+    assert not glanz_threads()
