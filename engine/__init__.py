@@ -73,6 +73,7 @@ from .textures.noise import NoiseTexture
 from .textures.normal_dot import NormalDot
 from .textures.normal_map import NormalMap
 from .textures.object_value import ObjectValue
+from .textures.radial_tiling import RadialTiling
 from .textures.relative_index import RelativeIndex
 from .textures.separate import Separate
 from .textures.sky import SkyTexture
@@ -160,6 +161,7 @@ __all__ = [
     "PhongTransmission",
     "PointLight",
     "Progress",
+    "RadialTiling",
     "RelativeIndex",
     "Requirements",
     "RoughRefraction",

@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 from mathutils import Euler
 
-from ...engine import Clamp, Coordinates, Mapping, MapRange, Math, Mix, MixColour, VectorMath, VectorRotate
+from ...engine import Clamp, Coordinates, Mapping, MapRange, Math, Mix, MixColour, RadialTiling, VectorMath, VectorRotate
 from .colours import varies
 from .nodes import words
 
@@ -67,6 +67,14 @@ def _vector_rotate(reader, node, output):
     return VectorRotate(*inputs, kind == "EULER_XYZ", node.invert)
 
 
+def _radial_tiling(reader, node, output):
+    inputs = (reader.value(node, identifier) for identifier in ("Vector", "Sides", "Roundness"))
+    return RadialTiling(*inputs, _TILING[output], node.normalize)
+
+
+_TILING = {"Segment Coordinates": "coordinates", "Segment ID": "number", "Segment Width": "width", "Segment Rotation": "rotation"}
+
+
 def _mapping(reader, node, output):
     vector, *changes = (reader.value(node, identifier) for identifier in ("Vector", "Location", "Rotation", "Scale"))
     is_affine = isinstance(vector, Coordinates) and node.vector_type != "NORMAL" and not any(map(varies, changes))
@@ -100,4 +108,5 @@ TABLE = {
     "MAP_RANGE": _map_range,
     "VECTOR_ROTATE": _vector_rotate,
     "MAPPING": _mapping,
+    "ShaderNodeRadialTiling": _radial_tiling,
 }

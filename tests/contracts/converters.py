@@ -19,6 +19,7 @@ from glanz.engine import (
     Mix,
     MixColour,
     NoiseTexture,
+    RadialTiling,
     Separate,
     VectorMath,
     VectorRotate,
@@ -54,6 +55,10 @@ CONVERTERS = {
     "map range": [MapRange(X, 0.2, Y, 1.0, GENERATED, 3.0, interpolation) for interpolation in PROGRESS],
     "mapping": [Mapping(GENERATED, GENERATED, X, (1.0, 0.0, 2.0), kind) for kind in ("point", "texture", "vector", "normal")],
     "vector rotate": [VectorRotate(GENERATED, X, GENERATED, Y, is_euler=e, is_inverted=i) for e in (True, False) for i in (True, False)],
+    "radial tiling": [
+        *(RadialTiling(GENERATED, 3.7, 0.4, output) for output in ("coordinates", "number", "width", "rotation")),
+        *(RadialTiling(GENERATED, sides, X, is_normalized=n) for sides in (2.0, 5.0, 4.6) for n in (False, True)),
+    ],
     "blackbody": [Blackbody(LinearTexture((X,), (2000.0,), 2000.0))],
     "wavelength": [Wavelength(LinearTexture((X,), (100.0,), 500.0))],
 }
@@ -66,6 +71,7 @@ REFUSED = [
     (Separate(component=3), "3"),
     (MapRange(interpolation="cubic"), "cubic"),
     (Mapping(kind="plane"), "plane"),
+    (RadialTiling(output="area"), "area"),
     (ColourRamp(table=np.zeros((2, 8), np.float32)), "table"),
     (ColourRamp(table=np.full((3, 8), np.nan, np.float32)), "finite"),
     (Curves(table=np.zeros((1, 1), np.float32)), "table"),

@@ -73,6 +73,7 @@ RANGES = {
     "Randomness": (0.0, 1.0),
     "Smoothness": (0.05, 1.0),
     "Filter Width": (0.05, 1.0),
+    "Sides": (2.2, 7.5),
 }
 COARSE = {
     "ShaderNodeTexBrick": {"Scale": (0.5, 1.5), "Brick Width": (0.2, 1.0), "Row Height": (0.2, 1.0)},

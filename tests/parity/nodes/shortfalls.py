@@ -5,7 +5,6 @@ _POLES = "where it divides by next to nothing: both engines look at places that 
 NODES = {
     "ShaderNodeMath": (_POLES, lambda case: case.properties.get("operation") in ("DIVIDE", "SNAP")),
     "ShaderNodeVectorMath": (_POLES, lambda case: case.properties.get("operation") in ("DIVIDE", "SNAP", "MODULO", "WRAP")),
-    "ShaderNodeRadialTiling": ("it is not read, which a warning says; the socket keeps its own value", None),
     "ShaderNodeMapRange": (_POLES, lambda case: case.properties.get("interpolation_type") in ("LINEAR", "STEPPED")),
 }
 """{node type: (reason, condition (case) or None for all cases)}."""
