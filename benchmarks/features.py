@@ -2,7 +2,8 @@
 
 A feature changes what paths do (mirrors send them farther, glass through more surfaces), so this is its price in a
 scene that uses it, not the time of its code. Scenes that do not use it run none of it (tests/renders/test_costs.py).
-"Pictures" has another counterpart: a Principled material with three of them against the same with constants.
+Two have other counterparts: "pictures", a Principled material with three of them, the same with constants; and "default",
+Blender's default material all over the box, its lobes with constants for the shares that depend on where they are seen from.
 """
 
 import dataclasses
@@ -33,6 +34,7 @@ from glanz.engine import (
     World,
     render_image,
 )
+from glanz.engine.scene.textured import averaged, may_emit
 
 from . import blender
 
@@ -47,14 +49,15 @@ def main():
     with blender.quiet():
         scene, settings, _ = capture()
         principled = {name: (capture()[0], settings) for name in ("principled", "pictures") if wear(name == "pictures")}
-    variants = {"plain": (scene, settings), **features(scene, settings), **principled}
+    default = {name: (dressed, settings) for name, dressed in all_over(principled["principled"][0]).items()}
+    variants = {"plain": (scene, settings), **features(scene, settings), **principled, **default}
     seconds = {name: [] for name in variants}
     for _ in range(ROUNDS):
         for name, (changed, how) in variants.items():
             start = time.process_time()
             render_image(changed, how)
             seconds[name].append(time.process_time() - start)
-    against = {"pictures": seconds["principled"]}
+    against = {"pictures": seconds["principled"], "default": seconds.pop("constant")}
     plain = seconds.pop("plain")
     blender.finish({name: median(a / b for a, b in zip(times, against.get(name, plain))) for name, times in seconds.items()})
 
@@ -81,6 +84,20 @@ def wear(has_pictures):
         mesh.materials.clear()
         mesh.materials.append(material)
     return True
+
+
+def all_over(scene):
+    """{name: `scene` with the material of the worn objects on all that does not shine}: "default", and its lobes "constant"."""
+    (material,) = next(o.materials for o in scene.objects if o.name == WORN[0])
+    constant = dataclasses.replace(material, lobes=tuple(averaged(lobe) for lobe in material.lobes))
+
+    def dressed(o, m):
+        return o if any(may_emit(own) for own in o.materials) else dataclasses.replace(o, materials=(m,) * len(o.materials))
+
+    return {
+        name: dataclasses.replace(scene, objects=tuple(dressed(o, m) for o in scene.objects))
+        for name, m in (("default", material), ("constant", constant))
+    }
 
 
 def features(scene, settings):

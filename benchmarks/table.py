@@ -55,6 +55,7 @@ ROWS = (
         )
     ),
     ("features", "principled", "Cornell box with / without: a Principled material", "", None),
+    ("features", "default", "Blender's default material all over / its lobes with constants", "", 1.15),
     ("features", "pictures", "a Principled material with three pictures / with constants", "", 2.0),
     ("memory", "import_bpy", "resident after `import bpy`", "MB", None),
     ("memory", "peak", "peak, Cornell box 1920x1080 with 3 passes", "MB", None),

@@ -120,9 +120,10 @@ class Texture(Protocol):
     counts as 0, and a parameter that is a number takes the luminance of a colour. Textures are what they are: two with
     the same fields are two. Fields annotated `object` are inputs: a number, three numbers, or a texture.
 
-    A texture also says, where it is so: `is_pure = False`, it is no function of its inputs alone (see `is_pure`); and
-    `has_detail = True`, it is averaged over footprints, so that rays have to carry them (see `has_detail`). One that has `coordinates`
-    and, seen as a sky, disks much brighter than around, has a method `spots`() that yields (unit vector, radius [rad]) of each.
+    A texture also says, where it is so: `is_pure = False`, it is no function of its inputs alone (see `is_pure`), and then
+    `asks_for_cosine = True`, but of these and of how it is looked at (see `asks_for_cosine`); and `has_detail = True`, it is
+    averaged over footprints, so that rays have to carry them (see `has_detail`). One that has `coordinates` and, seen as a
+    sky, disks much brighter than around, has a method `spots`() that yields (unit vector, radius [rad]) of each.
     """
 
     key: str
@@ -143,6 +144,11 @@ class Texture(Protocol):
 def is_pure(texture):
     """Whether a texture is a function of its inputs alone, and so a constant where they are."""
     return getattr(texture, "is_pure", True)
+
+
+def asks_for_cosine(texture):
+    """Whether a texture asks no more of a point than the cosine of the ray to the shading normal, and which side is met."""
+    return getattr(texture, "asks_for_cosine", False)
 
 
 def has_detail(texture):

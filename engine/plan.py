@@ -81,6 +81,7 @@ class Plan:
     footprints, edges  what rays stand for on triangles (plan, rays, prim, wo, t, lanes), and their edges, see `wavefront.cones`
     interact           the surface (plan, rays, hits) that a batch met
     adjust_surface     stages (plan, rays, surface) -> surface: what changes its normals
+    reflect            the reflection (surface) of its materials, see `Materials.at`
     adjust_reflection  stages (plan, rays, surface, reflection) -> reflection: what changes its lobes
     on_surface         stages (plan, rays, surface, reflection, film) at every surface: direct light
     on_leaving         stages (plan, rays, surface, scattered) that renew what scattered rays carry
@@ -121,6 +122,7 @@ class Plan:
     edges: object
     interact: object
     adjust_surface: tuple
+    reflect: object
     adjust_reflection: tuple
     on_surface: tuple
     on_leaving: tuple
@@ -226,6 +228,7 @@ class Plan:
             edges=edges_at_time if world.movers else edges_at_rest,
             interact=landing_with_cones(interact) if has_cones else interact,
             adjust_surface=(bend_normals,) if needs.RELIEF in requirements and world.materials.relief else (),
+            reflect=(world.by_cosine or world.materials).at,
             adjust_reflection=(
                 *((fill_in_textures,) if world.materials.textured else ()),
                 *((light_path.remember_lobes,) if has_past else ()),

@@ -25,7 +25,8 @@ import numpy as np
 from .fresnel import fresnel_dielectric, refracted_cosine
 from .lobes import LARGEST_EXPONENT
 
-_COSINES, _ROUGHNESSES, _STRATA = 24, 17, 24
+COSINES, _ROUGHNESSES, _STRATA = 24, 17, 24
+"""Entries of the tables; those of the cosine are at even steps of its root, from 0 to 1."""
 _NAMES = ("A", "P", "Q")
 _INDEX_STEPS = 49
 _MOST_F0 = 0.75
@@ -60,12 +61,12 @@ def _exponent(log_cos):
 
 def moment(name, cos, roughness):
     """A, P or Q float32 (N,) at cosines (N,) of wo to the normal."""
-    return _looked_up(_moments()[name], (_place(np.sqrt(np.abs(cos)), _COSINES), _place(roughness, _ROUGHNESSES)))
+    return _looked_up(_moments()[name], (_place(np.sqrt(np.abs(cos)), COSINES), _place(roughness, _ROUGHNESSES)))
 
 
 def fresnel_moment(name, cos, roughness, eta):
     """F or V float32 (N,) for the index eta (N,) behind the surface over that before it."""
-    places = (_index_place(eta), _place(np.sqrt(np.abs(cos)), _COSINES), _place(roughness, _ROUGHNESSES))
+    places = (_index_place(eta), _place(np.sqrt(np.abs(cos)), COSINES), _place(roughness, _ROUGHNESSES))
     return _looked_up(_fresnel_moments()[name], places)
 
 
@@ -77,7 +78,7 @@ def mean_albedo(roughness):
 def boundary(cos, roughness, eta):
     """B float32 (N,), and its mean (N,) over all wo, weighted by their cosines."""
     rough, index = _place(roughness, _ROUGHNESSES), _index_place(eta)
-    return _looked_up(_boundary(), (index, _place(np.sqrt(np.abs(cos)), _COSINES), rough)), _looked_up(_mean("B"), (index, rough))
+    return _looked_up(_boundary(), (index, _place(np.sqrt(np.abs(cos)), COSINES), rough)), _looked_up(_mean("B"), (index, rough))
 
 
 def _index_place(eta):
@@ -111,7 +112,7 @@ def _visible():
     """
     u = (np.arange(_STRATA) + 0.5) / _STRATA
     u1, u2 = (a.reshape(1, 1, -1) for a in np.meshgrid(u, u))
-    cos = np.square(np.linspace(0.5 / _COSINES**2, 1, _COSINES)).reshape(-1, 1, 1)
+    cos = np.square(np.linspace(0.5 / COSINES**2, 1, COSINES)).reshape(-1, 1, 1)
     alpha = np.square(np.linspace(0, 1, _ROUGHNESSES)).reshape(1, -1, 1)
     sin = np.sqrt(1 - cos * cos)
     # Heitz 2018, listing 1, with wo in the plane of x and z.
@@ -159,7 +160,7 @@ def _fresnel_moments():
 
 @lru_cache(maxsize=1)
 def _boundary():
-    """B (_INDEX_STEPS, _COSINES, _ROUGHNESSES) float32."""
+    """B (_INDEX_STEPS, COSINES, _ROUGHNESSES) float32."""
     c, cos, up, masked = _visible()
     reflected, rows = masked(2 * c * up - cos), []
     for eta in _indices():
@@ -174,7 +175,7 @@ def _mean(name):
     """The mean of A (_ROUGHNESSES,) or B (_INDEX_STEPS, _ROUGHNESSES) over all wo, weighted by their cosines."""
     values = _moments()["A"][None] if name == "A" else _boundary()
     # The tables' steps are those of the root of the cosine: d(cos^2) is in proportion to its cube.
-    return np.average(values, axis=1, weights=np.linspace(0, 1, _COSINES) ** 3).astype(np.float32).squeeze()
+    return np.average(values, axis=1, weights=np.linspace(0, 1, COSINES) ** 3).astype(np.float32).squeeze()
 
 
 def _indices():

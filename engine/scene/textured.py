@@ -8,7 +8,7 @@ import dataclasses
 import numpy as np
 
 from ..constants import LUMINANCE
-from ..interfaces import albedo_of, is_pure
+from ..interfaces import albedo_of, asks_for_cosine, has_detail, is_pure
 from ..registry import TEXTURES
 from .coordinates import Coordinates
 from .points import average_of, constant_of
@@ -87,6 +87,12 @@ def folded(texture):
     """A texture as the constant that it is, a number or three, where it is a function of constants; else itself."""
     is_constant = is_pure(texture) and not any(is_texture(x) or isinstance(x, Coordinates) for x in inputs_of(texture))
     return constant_of(texture) if is_constant else texture
+
+
+def is_isotropic(texture):
+    """Whether a texture is the same for all rays of one cosine to the shading normal that meet the same side."""
+    are_even = all((is_pure(part) or asks_for_cosine(part)) and not has_detail(part) for part in with_inner(texture))
+    return are_even and not coordinates_of(texture)
 
 
 def coordinates_of(texture):

@@ -22,6 +22,11 @@ class Fresnel:
     ior: object = 1.5
     normal: object = None
 
+    @property
+    def asks_for_cosine(self):
+        """See `interfaces.asks_for_cosine`."""
+        return self.normal is None
+
     def check(self, owner):
         pass
 

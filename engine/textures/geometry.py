@@ -37,6 +37,11 @@ class Geometry:
 
     output: str = "normal"
 
+    @property
+    def asks_for_cosine(self):
+        """See `interfaces.asks_for_cosine`."""
+        return self.output == "backfacing"
+
     def check(self, owner):
         if self.output not in _OUTPUTS:
             raise SceneError(f"{owner}: output of its geometry is '{self.output}', allowed: {', '.join(_OUTPUTS)}")

@@ -32,6 +32,7 @@ class GgxAlbedo:
     key = "ggx albedo"
     label = "GGX Albedo"
     is_pure = False
+    asks_for_cosine = True
 
     roughness: object = 0.5
     ior: object = 1.5

@@ -27,6 +27,7 @@ class GlassTint:
     key = "glass tint"
     label = "Glass Tint"
     is_pure = False
+    asks_for_cosine = True
 
     tint: object = (1.0, 1.0, 1.0)
     roughness: object = 0.5

@@ -28,6 +28,11 @@ class LayerWeight:
     normal: object = None
     output: str = "facing"
 
+    @property
+    def asks_for_cosine(self):
+        """See `interfaces.asks_for_cosine`."""
+        return self.normal is None
+
     def check(self, owner):
         if self.output not in ("facing", "fresnel"):
             raise SceneError(f"{owner}: output of its layer weight is '{self.output}', allowed: facing, fresnel")

@@ -15,6 +15,7 @@ class RelativeIndex:
     key = "relative index"
     label = "Relative Index"
     is_pure = False
+    asks_for_cosine = True
 
     ior: object = 1.5
 

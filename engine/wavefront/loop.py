@@ -40,7 +40,7 @@ def _trace(plan, rays, film, is_cancelled):
             film.first_hits[p.key][:, rays.slot] = p.values(plan, rays, surface)
         if not world.materials.lobes:
             continue
-        reflection = world.materials.at(surface.material)
+        reflection = plan.reflect(surface)
         for adjust in plan.adjust_reflection:
             reflection = adjust(plan, rays, surface, reflection)
         for add_light in plan.on_surface:

@@ -9,6 +9,7 @@ from ..maths.vectors import cross, dot, length
 from ..scene.values import Material
 from .accel import Accel
 from .attributes import compile_attributes
+from .by_cosine import ByCosine, tabulated
 from .emitters import Emitters
 from .frame import Frame
 from .lights import Lights
@@ -62,6 +63,7 @@ class CompiledWorld:
 
     accel       the triangles that stand still
     movers      the others; None where all stand still
+    by_cosine   what materials are by the cosine from which they are seen; None where none depends on that alone
     emitters    the patches that emit: the last ones of `lights`, made of the last ones of the triangles that stand still
     attributes  {key: `Attribute`}: what textures are looked up at
     glow        what textured emitters shine with, see `texturing`
@@ -76,6 +78,7 @@ class CompiledWorld:
     movers: object
     triangles: Triangles
     materials: Materials
+    by_cosine: ByCosine | None
     lights: Lights
     emitters: Emitters
     background: np.ndarray
@@ -121,7 +124,7 @@ def compile_world(
     the geometry does not fit into memory.
     """
     materials, row = _number_materials(scene)
-    table = Materials.of(materials, bsdfs, () if disperses else ("spread",))
+    by_cosine, table = tabulated(Materials.of(materials, bsdfs, () if disperses else ("spread",)))
     still = place([(i, o) for i, o in enumerate(scene.objects) if o.is_still or not motion_steps], row, smooth)
     changing = [(i, o) for i, o in enumerate(scene.objects) if motion_steps and o.mesh.triangles.size and not o.is_still]
     moving = [Moving.of(i, o, row, smooth, motion_steps) for i, o in changing]
@@ -189,6 +192,7 @@ def compile_world(
         movers=movers,
         triangles=triangles,
         materials=table,
+        by_cosine=by_cosine,
         lights=Lights.of(scene.lights, environment, emitters, frame, radius, has_choice, samples_lights, glow),
         emitters=emitters,
         background=np.array((0.0, 0.0, 0.0) if environment else scene.world.radiance, np.float32)[:, None],

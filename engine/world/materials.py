@@ -105,22 +105,22 @@ class Materials:
         straight = {row: [lobe.transmittance for lobe in materials[row].lobes if _is_passed(lobe, bsdfs)] for row in textured}
         shine = emission.copy()
         shine[:, list(glowing)] = 1
-        return cls(tuple(lobes), _thresholds(shares), shares, emission, shine, ambient, kind, textured, straight, glowing, relief, wanted)
+        return cls(tuple(lobes), thresholds_of(shares), shares, emission, shine, ambient, kind, textured, straight, glowing, relief, wanted)
 
     @property
     def rough_lobes(self):
         """How many lobes have a width, and so can be reached by shadow rays."""
         return sum(not lobe.bsdf.is_specular for lobe in self.lobes)
 
-    def at(self, material):
-        """The `Reflection` of surface points whose materials are `material` (N,)."""
+    def at(self, surface):
+        """The `Reflection` of a `Surface`."""
         lobes = self.lobes
         # One row broadcasts over all lanes.
         if self.emission.shape[1] > 1:
-            lobes = [Lobe(lobe.bsdf, lobe.k.take(material)) for lobe in lobes]
+            lobes = [Lobe(lobe.bsdf, lobe.k.take(surface.material)) for lobe in lobes]
         thresholds, shares = self.thresholds, self.shares
         if len(lobes) > 1 and self.emission.shape[1] > 1:
-            thresholds, shares = thresholds.take(material, axis=1), shares.take(material, axis=1)
+            thresholds, shares = (a.take(surface.material, axis=1) for a in (thresholds, shares))
         return self.kind(tuple(lobes[: self.rough_lobes]), tuple(lobes[self.rough_lobes :]), thresholds, shares)
 
 
@@ -134,9 +134,9 @@ def _shares(albedos):
     return np.where(total > 0, albedos / np.where(total > 0, total, 1), np.float32(1 / max(len(albedos), 1)))
 
 
-def _thresholds(shares):
+def thresholds_of(shares):
     """Where the intervals of [0, 1) that belong to shares (L, M) end, but for the last one: (L - 1, M) float32."""
-    return np.cumsum(shares, axis=0, dtype=np.float64)[:-1].astype(np.float32)
+    return np.cumsum(shares[:-1], axis=0, dtype=np.float64).astype(np.float32)
 
 
 def _is_passed(lobe, bsdfs):
@@ -218,7 +218,7 @@ class Reflection:
     def with_lobes(self, lobes, shares):
         """The same with other parameters `lobes`, rough ones first, and the probabilities `shares` (L, N) in proportion."""
         shares, rough = _shares(shares), len(self.rough)
-        return type(self)(tuple(lobes[:rough]), tuple(lobes[rough:]), _thresholds(shares), shares)
+        return type(self)(tuple(lobes[:rough]), tuple(lobes[rough:]), thresholds_of(shares), shares)
 
     def with_indices(self, find, n):
         """The same with the indices of refraction `find`(k), (N,) or (3, N), or (3, 1) for all n lanes, in lobes that have one."""

@@ -15,6 +15,7 @@ from glanz.engine import (
     ImageTexture,
     Lambert,
     LambertTransmission,
+    LayerWeight,
     Lens,
     Material,
     Medium,
@@ -129,6 +130,7 @@ FEATURES = {
     "lens": (lambda: h.replaced(plain(), camera=h.replaced(plain().camera, lens=Lens(radius=0.1, focus_distance=4.0))), set()),
     "environment": (lit_by_a_picture, {"world/environment.py"}),
     "texture": (textured, {"textures/image.py", "wavefront/texturing.py"}),
+    "texture of the cosine": (lambda: wearing(Lambert(LayerWeight(0.5))), {"world/by_cosine.py"}),
 }
 
 
@@ -142,6 +144,10 @@ def test_a_feature_enters_files_of_its_own(name):
     found = entered(make())
     assert files <= found
     assert files.isdisjoint(PLAIN)
+
+
+def test_textures_that_ask_for_the_cosine_alone_are_not_looked_up():
+    assert entered(wearing(Lambert(LayerWeight(0.5)))) <= PLAIN | {"world/by_cosine.py"}
 
 
 def test_the_list_catches_a_stage_that_runs_unasked(monkeypatch):

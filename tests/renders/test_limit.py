@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from glanz.engine import Coordinates, GradientTexture, Lambert, LinearTexture, Material, Transparent
-from glanz.engine.wavefront import texturing
+from glanz.engine.world import filling
 from glanz.tests import helpers as h, textured as t
 
 SQUARE = t.with_uvs(h.quad((0, 0, 0), (2, 0, 0), (0, 2, 0)))
@@ -27,6 +27,6 @@ def test_what_textures_make_too_bright_reflects_just_all_that_does_not_pass(lobe
 
 
 def test_the_limit_catches_lobes_that_are_not_darkened(monkeypatch):
-    monkeypatch.setattr(texturing, "_limit", lambda *args: None)
+    monkeypatch.setattr(filling, "_limit", lambda *args: None)
     with pytest.raises(AssertionError):
         test_what_textures_make_too_bright_reflects_just_all_that_does_not_pass(*LIMITED["one lobe"])
