@@ -1,6 +1,6 @@
 """A scene runs what it asks for, and nothing else: which files of the engine a render enters, and how often it calls Embree."""
 
-import sys
+import threading
 from pathlib import Path
 
 import numpy as np
@@ -77,7 +77,7 @@ def plain(**changes):
 
 
 def entered(scene, settings=SETTINGS):
-    """The files of the engine, relative to its folder, in which a function runs while a tile is rendered."""
+    """The files of the engine, relative to its folder, in which a function runs in the threads that render."""
     plan = h.plan_of(scene, settings)
     files = set()
 
@@ -85,13 +85,12 @@ def entered(scene, settings=SETTINGS):
         if event == "call":
             files.add(frame.f_code.co_filename)
 
-    before = sys.getprofile()
-    sys.setprofile(look)
+    threading.setprofile(look)
     try:
-        tile = (0, 0, settings.width, settings.height)
-        rendering._render_tile(plan, tile, rendering._Work([tile]))
+        for _ in rendering.render_plan(plan):
+            pass
     finally:
-        sys.setprofile(before)
+        threading.setprofile(None)
     return {Path(name).relative_to(ENGINE).as_posix() for name in files if Path(name).is_relative_to(ENGINE)}
 
 
