@@ -1,22 +1,28 @@
 """Glanz inside Blender: settings, panels, and the render engine that hands scenes to `..engine`."""
 
 import importlib
+import logging
 
 SETTINGS = ("properties", "light_settings", "material_settings")
 """The modules of what a .blend file stores."""
-_MODULES = (*SETTINGS, "render_engine", "panels", "builtin_panels")
+_MODULES = ("preferences", *SETTINGS, "render_engine", "panels", "builtin_panels")
 _registered = []
 
 
 def register():
     """Add Glanz to Blender's list of render engines; does nothing the second time.
 
-    Works without the engine's own libraries: a panel then says what is missing.
+    Works without the engine's own libraries: a panel then says what is missing. Beside another Glanz that is in use it adds
+    nothing but preferences that say so.
     """
     if _registered:
         return
+    from . import neighbour
+
+    if neighbour.package():
+        logging.getLogger("glanz").warning(neighbour.complaint())
     try:
-        for name in _MODULES:
+        for name in _MODULES[:1] if neighbour.package() else _MODULES:
             module = importlib.import_module(f"{__name__}.{name}")
             module.register()
             _registered.append(module)

@@ -5,14 +5,26 @@ The engine brings compiled libraries (Embree). Where one is missing Blender must
 
 from functools import cache
 
+CURE = "Install the extension for this platform and this version of Blender again, then restart Blender"
+
+
+class Unusable(Exception):
+    """The engine cannot be loaded; the text is for a user."""
+
 
 @cache
 def _load():
     try:
         from .. import engine
-    except (ImportError, OSError) as error:
+    except Exception as error:  # whatever a library raises that was built for another NumPy or another system
         return None, f"{type(error).__name__}: {error}"
     return engine, ""
+
+
+@cache
+def _faults():
+    """Why the engine's libraries cannot be loaded, by name. Loads them, so not asked when Blender starts."""
+    return engine().library_faults() if engine() else {}
 
 
 def engine():
@@ -21,13 +33,21 @@ def engine():
 
 
 def problem():
-    """Why the engine cannot be loaded, one line for a user; empty: it can."""
+    """Why Glanz cannot render, for a user; empty: it can."""
     cause = _load()[1]
-    return f"Glanz cannot render: {cause}. Install the extension for this platform and Blender version again" if cause else ""
+    if not cause and "embreex" in _faults():
+        cause = f"its library embreex cannot be loaded ({_faults()['embreex']})"
+    return f"Glanz cannot render: {cause}. {CURE}" if cause else ""
+
+
+def remark():
+    """What works less than it should, for a user; empty: nothing."""
+    cause = _faults().get("OpenEXR")
+    return f"Glanz renders, but its library OpenEXR cannot be loaded ({cause}). {CURE}" if cause else ""
 
 
 def load_or_raise():
-    """The package `engine`; raises RuntimeError with the text of `problem`."""
+    """The package `engine`; raises Unusable with the text of `problem`."""
     if problem():
-        raise RuntimeError(problem())
+        raise Unusable(problem())
     return engine()

@@ -3,6 +3,7 @@
 import bpy
 
 from . import backend, passes
+from .preferences import paragraph
 
 
 class GlanzPanel:
@@ -57,10 +58,7 @@ class GLANZ_RENDER_PT_problem(GlanzPanel, bpy.types.Panel):
         return super().poll(context) and bool(backend.problem())
 
     def draw(self, context):
-        column = self.layout.column()
-        column.alert = True
-        for line in backend.problem().split(". "):
-            column.label(text=line, icon="ERROR", translate=False)
+        paragraph(self.layout, context, backend.problem())
 
 
 class GLANZ_RENDER_PT_sampling(GlanzPanel, bpy.types.Panel):

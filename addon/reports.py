@@ -15,6 +15,8 @@ MOST_WARNINGS = 8
 def describe(error):
     """One line for a user: our own errors speak for themselves, others are named."""
     engine = backend.engine()
+    if isinstance(error, backend.Unusable):
+        return str(error)
     if isinstance(error, MemoryError):
         return f"Glanz ran out of memory: lower the resolution, or simplify the scene ({error or 'no details'})"
     if engine and isinstance(error, engine.GlanzError):
@@ -27,7 +29,8 @@ def describe(error):
 def is_expected(error):
     """Whether the user can do something about `error`, and a developer needs no traceback."""
     engine = backend.engine()
-    return bool(engine) and isinstance(error, engine.GlanzError) and error.__cause__ is None
+    own = isinstance(error, backend.Unusable) or (bool(engine) and isinstance(error, engine.GlanzError))
+    return own and error.__cause__ is None
 
 
 @contextmanager

@@ -24,6 +24,7 @@ from .errors import FileError, GlanzError, SceneError
 from .interfaces import albedo_of
 from .io.exr import write_exr
 from .io.scene_file import read_scene, write_scene
+from .libraries import library_faults
 from .lights.area import AreaLight
 from .lights.cosine_spot import CosineSpotLight
 from .lights.point import PointLight
@@ -188,6 +189,7 @@ __all__ = [
     "average_of",
     "folded",
     "is_texture",
+    "library_faults",
     "metadata",
     "prepare",
     "read_scene",

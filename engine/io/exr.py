@@ -75,9 +75,14 @@ def _opened(path, **options):
         raise FileError(f"cannot read '{path}': it is not an OpenEXR file ({error})") from error
 
 
+def check():
+    """Raise FileError, with the cause, where OpenEXR cannot be loaded."""
+    _openexr()
+
+
 def _openexr():
     try:
         import OpenEXR
-    except ImportError as error:
+    except Exception as error:  # whatever a library raises that was built for another system
         raise FileError(f"EXR files need the module OpenEXR, which cannot be loaded ({error}); cure: pip install OpenEXR") from error
     return OpenEXR

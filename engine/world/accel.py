@@ -147,6 +147,11 @@ def _free_memory():
         return None
 
 
+def check():
+    """Raise AccelError, with the cause, where embreex cannot be loaded."""
+    _embreex()
+
+
 def _embreex():
     """embreex bound to its own libembree, also inside a Blender that brings another one.
 
@@ -156,7 +161,7 @@ def _embreex():
     with _deepbind():
         try:
             from embreex import mesh_construction, rtcore_scene
-        except ImportError as error:
+        except Exception as error:  # whatever a library raises that was built for another NumPy or another system
             raise AccelError(
                 f"embreex cannot be loaded ({error}); install the package embreex, or the Glanz extension for this platform"
             ) from error

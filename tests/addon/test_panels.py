@@ -38,7 +38,8 @@ def _context(ob=None):
     light = ob.data if ob and ob.type == "LIGHT" else None
     camera = ob.data if ob and ob.type == "CAMERA" else None
     layer = bpy.context.view_layer
-    shown = {"light": light, "camera": camera, "material": getattr(ob, "active_material", None)}
+    region = {"region": SimpleNamespace(width=400), "preferences": bpy.context.preferences}
+    shown = region | {"light": light, "camera": camera, "material": getattr(ob, "active_material", None)}
     return SimpleNamespace(engine=scene.render.engine, scene=scene, view_layer=layer, object=ob, **shown)
 
 
@@ -158,7 +159,7 @@ def test_panels_hide_from_other_engines(name):
 def test_a_problem_is_shown_only_where_there_is_one(monkeypatch):
     assert not OWN["GLANZ_RENDER_PT_problem"].poll(_context())
     monkeypatch.setattr("glanz.addon.backend._load", lambda: (None, "no Embree"))
-    assert "no Embree" in "".join(_drawn("GLANZ_RENDER_PT_problem"))
+    assert "no Embree" in " ".join(_drawn("GLANZ_RENDER_PT_problem"))
 
 
 @pytest.mark.parametrize(

@@ -4,9 +4,8 @@ import bpy
 import pytest
 
 import glanz
-from glanz.addon import backend, builtin_panels, properties
+from glanz.addon import builtin_panels, properties
 from glanz.addon.settings import _OWN
-from glanz.tests.addon import blender
 
 
 @pytest.fixture(autouse=True)
@@ -94,20 +93,3 @@ def test_settings_survive_saving_and_loading(tmp_path):
     bpy.ops.wm.open_mainfile(filepath=path)
     settings = bpy.context.scene.glanz
     assert (settings.sampler, settings.samples, settings.pixel_filter) == ("random", 7, "box")
-
-
-@pytest.fixture
-def without_engine(monkeypatch):
-    glanz.unregister()
-    monkeypatch.setattr(backend, "_load", lambda: (None, "ModuleNotFoundError: No module named 'embreex'"))
-    monkeypatch.setattr(properties, "enum_items", lambda name: [])
-    glanz.register()
-    bpy.context.scene.render.engine = "GLANZ"
-
-
-def test_a_missing_library_is_a_message_not_a_crash(without_engine, tmp_path):
-    assert "embreex" in backend.problem()
-    blender.add_camera()
-    with pytest.raises(RuntimeError, match="embreex"):
-        blender.render(tmp_path / "a.exr")
-    assert not (tmp_path / "a.exr").exists()

@@ -25,6 +25,7 @@ LAYERS = (
     ("plan",),
     ("rendering",),
     ("io",),
+    ("libraries",),
     ("__init__",),
 )
 """What may be imported stands above, or in the same folder."""
