@@ -1,0 +1,49 @@
+"""Whatever a user changes, in whatever order, a render follows: no exception, no crash, no memory that is never given back."""
+
+import gc
+import os
+import random
+import re
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+from glanz.tests.addon import blender, changes
+
+BEFORE_MEASURING = 20
+"""Changes until caches and libraries have what they need."""
+MOST_GROWTH = 50.0
+"""Megabytes."""
+
+
+def resident_megabytes():
+    gc.collect()
+    return int(re.search(r"VmRSS:\s+(\d+)", Path("/proc/self/status").read_text())[1]) / 1024
+
+
+def change_and_render(seed, count, path, step=4):
+    """`count` changes, a render after each `step`; returns by how many megabytes the process grew."""
+    made = changes.Changes(random.Random(seed))
+    before = None
+    refused = 0
+    for n in range(0, count, step):
+        made.make(step)
+        try:
+            passes = blender.read_exr(blender.render(path))
+        except RuntimeError as error:
+            # As one whose parent is flat: with another camera it goes on.
+            assert str(error).startswith("Error: camera 'Camera"), f"seed {seed}, after {made.log}"
+            refused += 1
+            bpy.data.objects.remove(bpy.context.scene.camera)
+            continue
+        for name, values in passes.items():
+            assert not np.isnan(values).any(), f"seed {seed}, NaN in {name} after {made.log}"
+        if before is None and n >= BEFORE_MEASURING and os.path.exists("/proc/self/status"):
+            before = resident_megabytes()
+    assert refused <= count / step / 4
+    return resident_megabytes() - before if before else 0.0
+
+
+def test_any_changes_can_be_rendered(tmp_path):
+    assert change_and_render(1, 60, tmp_path / "a.exr") <= MOST_GROWTH
