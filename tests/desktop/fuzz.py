@@ -6,7 +6,7 @@ import bpy
 import changes
 import harness as ui
 
-COUNT = 200
+COUNT = 60
 BEFORE_MEASURING = 20
 MOST_GROWTH = 50.0
 """Megabytes."""
