@@ -3,27 +3,32 @@
 import numpy as np
 
 from ...engine import Bitmap
-from .images import MISSING, has_codes_cut, texels_of, tiles_of
+from .images import MISSING, frame_shown, has_codes_cut, texels_of, tiles_of
 
 _MAGENTA = Bitmap(name="missing", pixels=np.array(MISSING[:3], np.float32)[:, None, None])
 
 
 class Bitmaps:
-    """Engine values of the images met so far."""
+    """Engine values of the images met so far, at a `frame` of the scene."""
 
-    def __init__(self, findings):
+    def __init__(self, findings, frame=1):
         self._findings = findings
+        self._frame = frame
         self._known = {}
 
     def of(self, image, owner, user=None, is_uncut=False):
         """The `Bitmap` of an image datablock, magenta where it is None or has no pixels; notes are for `owner`.
 
-        user      the ImageUser of the node that shows it: of sequences it says the frame
+        user      the ImageUser of the node that shows it: of sequences and movies it says the frame
         is_uncut  its colours will be divided by alpha
         """
-        frame = user.frame_current if user and image and image.source == "SEQUENCE" else None
+        frame = self.frame_of(image, user)
         key = image and (image.name_full, frame, is_uncut and has_codes_cut(image))
-        return self._once(key, lambda: self._read(image, owner, user, is_uncut))
+        return self._once(key, lambda: self._read(image, owner, frame, is_uncut))
+
+    def frame_of(self, image, user):
+        """The number of the picture that an ImageUser shows of a sequence or movie; None: the image is but one."""
+        return frame_shown(user, self._frame) if image and image.source in ("SEQUENCE", "MOVIE") else None
 
     def tiles(self, image, owner, is_uncut=False):
         """((number, `Bitmap`), ...) of a tiled image; () of others."""
@@ -39,8 +44,8 @@ class Bitmaps:
             self._known[key] = make()
         return self._known[key]
 
-    def _read(self, image, owner, user, is_uncut):
-        found = texels_of(image, self._findings, owner, user, is_uncut)
+    def _read(self, image, owner, frame, is_uncut):
+        found = texels_of(image, self._findings, owner, frame, is_uncut)
         return _MAGENTA if found is None else _bitmap(image, *found)
 
 

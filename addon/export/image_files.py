@@ -36,6 +36,23 @@ def pixels_of_file(path, like):
         return None if pixels is None else (pixels, image.is_float)
 
 
+def pixels_of_movie(path, frame, like):
+    """The same of a picture of a movie, counted from 1; the first and last are those before and after as well."""
+    if not os.path.isfile(path):
+        return None
+    with bpy.data.temp_data() as data:
+        movie = data.images.load(str(path))
+        movie.colorspace_settings.name = like.colorspace_settings.name
+        movie.alpha_mode = like.alpha_mode
+        movie.use_deinterlace = like.use_deinterlace
+        if movie.source != "MOVIE" or pixels_in(movie) is None:
+            return None
+        # Pixels are those of the picture that was asked for last; scaled to the size that it has it stays as it is.
+        movie.scale(*movie.size, frame=frame)
+        pixels = pixels_in(movie)
+        return None if pixels is None else (pixels, movie.is_float)
+
+
 def pixels_of_data(content, name, like):
     """The same for the content of a packed file, bytes, once called `name`."""
     with tempfile.TemporaryDirectory() as folder:

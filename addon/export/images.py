@@ -1,9 +1,11 @@
 """Blender's images as arrays of numbers."""
 
+import re
+
 import bpy
 import numpy as np
 
-from .image_files import pixels_in, pixels_of_data, pixels_of_file, scene_linear
+from .image_files import pixels_in, pixels_of_data, pixels_of_file, pixels_of_movie, scene_linear
 
 MISSING = (1.0, 0.0, 1.0, 1.0)
 """Magenta: what Blender shows for an image that it cannot find."""
@@ -11,15 +13,26 @@ _PLAIN = ("Linear Rec.709", "Working Space")
 """Colour spaces in which numbers are scene-linear as they are."""
 
 
-def texels_of(image, findings, owner, user=None, is_uncut=False):
+def frame_shown(user, frame):
+    """The number of the picture that an ImageUser shows of a sequence or movie at a `frame` of the scene.
+
+    As Cycles counts: `use_auto_refresh` is for the viewport.
+    """
+    length, frame = user.frame_duration, frame - user.frame_start + 1
+    if length <= 0:
+        return 0
+    return user.frame_offset + ((frame - 1) % length + 1 if user.use_cyclic else min(max(frame, 0), length))
+
+
+def texels_of(image, findings, owner, frame=None, is_uncut=False):
     """(texels, is_srgb) of an image datablock: (H, W, 4), row 0 is the bottom; alpha is 1 where it does not count.
 
     As Cycles has them: uint8, colours encoded by sRGB or linear and, as they are encoded, multiplied by alpha; or float32,
-    scene-linear and multiplied by alpha. `user` is the ImageUser that says which frame of a sequence it is; `is_uncut`: colours
+    scene-linear and multiplied by alpha. `frame` is the number of the picture in a sequence or movie; `is_uncut`: colours
     will be divided by alpha again. None, with a note for `owner`, for an image that is missing or None.
     """
     image = image and image.original
-    found = image and _read(image, findings, owner, user)
+    found = image and _read(image, frame)
     if not found:
         findings.note(f"the image {repr(image.name) + ' ' if image else ''}is missing and is rendered magenta", owner)
         return None
@@ -45,12 +58,12 @@ def tiles_of(image, findings, owner, is_uncut=False):
     return tuple(found)
 
 
-def linear_pixels(image, findings, owner, user=None):
+def linear_pixels(image, findings, owner, frame=None):
     """(4, H, W) float32: red, green, blue, scene-linear and multiplied by alpha, and alpha; row 0 is the top.
 
     An image that is missing, or None, is one pixel of magenta and noted for `owner`.
     """
-    found = texels_of(image, findings, owner, user)
+    found = texels_of(image, findings, owner, frame)
     if found is None:
         return np.array(MISSING, np.float32)[:, None, None]
     texels, is_srgb = found
@@ -69,16 +82,20 @@ def is_cut_by_alpha(image):
     return bool(image) and image.alpha_mode not in ("NONE", "CHANNEL_PACKED") and not image.colorspace_settings.is_data
 
 
-def _read(image, findings, owner, user):
+def _read(image, frame):
     """(pixels, is_float), or None."""
-    if image.source == "SEQUENCE" and user is not None:
-        return pixels_of_file(_path(image, image.filepath_from_user(image_user=user)), image)
+    if image.source == "SEQUENCE":
+        return pixels_of_file(_path(image, _numbered(image.filepath, frame)), image)
+    # A movie has a colour space when its pixels have been looked at.
+    if image.source == "MOVIE" and len(image.pixels):
+        return pixels_of_movie(_path(image, image.filepath), frame, image)
     pixels = pixels_in(image)
-    if pixels is None:
-        return None
-    if image.source in ("SEQUENCE", "MOVIE", "TILED"):
-        findings.note(f"of the image '{image.name}' only what Blender shows of it is rendered: it is a {image.source.lower()}", owner)
-    return pixels, image.is_float
+    return None if pixels is None else (pixels, image.is_float)
+
+
+def _numbered(path, frame):
+    """The path of a picture of a sequence: the last number in the name of any of its files is the frame's."""
+    return re.sub(r"\d+(?=[^\d/\\]*(\.[^./\\]*)?$)", lambda digits: f"{max(frame, 0):0{len(digits[0])}d}", path, count=1)
 
 
 def has_codes_cut(image):

@@ -6,7 +6,6 @@ import bpy
 import numpy as np
 
 from ...engine import GlanzError, Object, SceneError
-from .bitmaps import Bitmaps
 from .light import export_light
 from .material import export_material, is_volume_only
 from .mesh import export_mesh
@@ -40,14 +39,14 @@ class _Placed:
     asked: tuple
 
 
-def export_objects(depsgraph, findings, material_override=None, check=lambda: None, tracks=STILL):
+def export_objects(depsgraph, findings, bitmaps, material_override=None, check=lambda: None, tracks=STILL):
     """(objects, lights): engine values for every instance of `depsgraph`, tuples.
 
-    Meshes are shared by data-block, so ten thousand instances cost one mesh. `material_override`, if any, replaces all
+    Meshes are shared by data-block, so ten thousand instances cost one mesh, and images by `bitmaps`. `material_override`, if any, replaces all
     materials. `check` is called now and then and may raise to stop. `tracks` is told who is there, and moves them, see
     `motion`. Raises SceneError naming the object that failed.
     """
-    parts = _Parts(findings, material_override)
+    parts = _Parts(findings, bitmaps, material_override)
     placed, matrices, values, identities, lights = [], [], [], [], []
     for i, instance in enumerate(depsgraph.object_instances):
         if i % POLL_EVERY == 0:
@@ -112,10 +111,10 @@ def has_faces(matrices):
 class _Parts:
     """Meshes and materials, exported when first met."""
 
-    def __init__(self, findings, material_override):
+    def __init__(self, findings, bitmaps, material_override):
         self._findings = findings
         self._override = material_override
-        self._bitmaps = Bitmaps(findings)
+        self._bitmaps = bitmaps
         self._parts, self._meshes, self._materials = {}, {}, {}
 
     def of(self, ob):

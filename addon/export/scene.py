@@ -3,6 +3,7 @@
 from contextlib import nullcontext
 
 from ...engine import Scene
+from .bitmaps import Bitmaps
 from .camera import export_camera
 from .findings import Findings
 from .motion import STILL, CameraTrack, Shutter, Tracks
@@ -36,9 +37,10 @@ def export_views(depsgraph, settings, views, check=lambda: None, frame_set=None)
         override = _evaluated(depsgraph.view_layer_eval.material_override, depsgraph)
         tracks = Tracks(shutter, depsgraph, cameras, findings, check) if shutter else STILL
         world = _evaluated(getattr(depsgraph.view_layer_eval, "world_override", None) or scene.world, depsgraph)
-        world = export_world(world, findings)
+        bitmaps = Bitmaps(findings, scene.frame_current)
+        world = export_world(world, findings, bitmaps)
         # Last, for to see what moves Blender has to leave the frame.
-        objects, lights = export_objects(depsgraph, findings, override, check, tracks)
+        objects, lights = export_objects(depsgraph, findings, bitmaps, override, check, tracks)
     scenes = tuple(
         Scene(name=scene.name, camera=camera.moved(shutter, findings), objects=objects, lights=lights, world=world) for camera in cameras
     )

@@ -3,7 +3,6 @@
 from dataclasses import replace
 
 from ...engine import World
-from .bitmaps import Bitmaps
 from .environment import as_picture
 from .material import clean_colour
 from .nodes import has_nodes, output_node
@@ -11,8 +10,8 @@ from .shaders import surface_of
 from .values import Reader
 
 
-def export_world(world, findings):
-    """The engine's `World` for a world (evaluated); none is black."""
+def export_world(world, findings, bitmaps):
+    """The engine's `World` for a world (evaluated), its images by `bitmaps`; none is black."""
     if world is None:
         return World()
     owner = f"world '{world.name}'"
@@ -24,7 +23,7 @@ def export_world(world, findings):
         return World(name=world.name)
     if Reader(owner, findings).is_linked(output, "Volume"):
         findings.note("the volume is left out", owner)
-    radiance, picture = as_picture(surface_of(output, owner, findings, Bitmaps(findings)).emission)
+    radiance, picture = as_picture(surface_of(output, owner, findings, bitmaps).emission)
     if picture is None:
         return World(name=world.name, radiance=clean_colour(radiance, owner, findings))
     strength = clean_colour(picture.strength, owner, findings)

@@ -1,9 +1,12 @@
 """Images of more than one file: sequences and tiles; colour spaces; what is missing."""
 
+import struct
+
 import bpy
 import numpy as np
 import pytest
 
+from glanz.addon.export import images
 from glanz.engine import ImageTexture
 from glanz.engine.scene.textured import with_inner
 from glanz.tests.addon import blender
@@ -40,6 +43,27 @@ def sequence(folder, frames=(1, 2, 3, 4)):
     return image
 
 
+def movie(folder, frames=(1, 2, 3, 4)):
+    """A movie of 16 x 16 texels whose frame f has the code 10 f: an AVI file of bitmaps as they are."""
+
+    def chunk(name, content):
+        return name + struct.pack("<I", len(content)) + content
+
+    def parts(name, *chunks):
+        return chunk(b"LIST", name + b"".join(chunks))
+
+    size = 16 * 16 * 3
+    head = struct.pack("<14I", 40_000, 25 * size, 0, 0, len(frames), 0, 1, size, 16, 16, 0, 0, 0, 0)
+    stream = b"vidsDIB " + struct.pack("<10I4H", 0, 0, 0, 1, 25, 0, len(frames), size, 0, 0, 0, 0, 16, 16)
+    bitmap = struct.pack("<IiiHHIIiiII", 40, 16, 16, 1, 24, 0, size, 0, 0, 0, 0)
+    header = parts(b"hdrl", chunk(b"avih", head), parts(b"strl", chunk(b"strh", stream), chunk(b"strf", bitmap)))
+    pictures = parts(b"movi", *(chunk(b"00db", bytes([10 * frame]) * size) for frame in frames))
+    path = folder / "cut.avi"
+    path.write_bytes(chunk(b"RIFF", b"AVI " + header + pictures))
+    return bpy.data.images.load(str(path))
+
+
+@pytest.mark.parametrize("make", [sequence, movie])
 @pytest.mark.parametrize(
     ("frame", "user", "expected"),
     [
@@ -50,13 +74,15 @@ def sequence(folder, frames=(1, 2, 3, 4)):
         (3, {"frame_start": 2}, 2),
         (2, {"frame_offset": 1}, 3),
         (4, {"frame_duration": 2}, 2),
+        (-1, {"use_cyclic": True, "frame_offset": 1, "frame_duration": 3}, 3),
+        (3, {"use_auto_refresh": False}, 3),
     ],
 )
-def test_a_sequence_shows_the_frame_that_blender_says(tmp_path, frame, user, expected):
-    image = sequence(tmp_path)
+def test_a_sequence_or_movie_shows_the_frame_that_cycles_shows(tmp_path, make, frame, user, expected):
+    image = make(tmp_path)
     count = len(bpy.data.images)
     bpy.context.scene.frame_set(frame)
-    texture, warnings = shown(image, use_auto_refresh=True, **{"frame_duration": 4, "frame_start": 1, "frame_offset": 0, **user})
+    texture, warnings = shown(image, **{"use_auto_refresh": True, "frame_duration": 4, "frame_start": 1, "frame_offset": 0, **user})
     assert warnings == ()
     assert (texture.bitmap.pixels[:3] == 10 * expected).all()
     # Read apart from the open file.
@@ -139,13 +165,20 @@ def test_colour_spaces_are_converted_by_blender(tmp_path):
     assert [i.name for i in bpy.data.images if i.name.startswith("Encoded")] == []
 
 
-def test_a_movie_is_said_to_stand_still(tmp_path):
+def test_a_movie_that_is_none_is_magenta(tmp_path):
     save(tmp_path / "grey.png", 70)
     image = bpy.data.images.load(str(tmp_path / "grey.png"))
     image.source = "MOVIE"
-    warnings = shown(image)[1]
-    assert len(warnings) == 1
-    assert "movie" in warnings[0] or "magenta" in warnings[0]
+    (warning,) = shown(image)[1]
+    assert "magenta" in warning and image.name in warning
+
+
+@pytest.mark.parametrize(
+    ("path", "expected"),
+    [("//a/b_0001.png", "//a/b_0012.png"), ("/a1/b.png", "/a1/b.png"), ("C:\\x\\s2_1_left.jp2", "C:\\x\\s2_12_left.jp2"), ("007", "012")],
+)
+def test_the_last_number_of_a_name_is_the_frame(path, expected):
+    assert images._numbered(path, 12) == expected
 
 
 def test_one_image_is_one_bitmap_for_colour_and_alpha(tmp_path):
