@@ -42,8 +42,8 @@ class _Placed:
 def export_objects(depsgraph, findings, bitmaps, material_override=None, check=lambda: None, tracks=STILL):
     """(objects, lights): engine values for every instance of `depsgraph`, tuples.
 
-    Meshes are shared by data-block, so ten thousand instances cost one mesh, and images by `bitmaps`. `material_override`, if any, replaces all
-    materials. `check` is called now and then and may raise to stop. `tracks` is told who is there, and moves them, see
+    Meshes are shared by data-block, so ten thousand instances cost one mesh; images are by `bitmaps`. `material_override`, if any,
+    replaces all materials. `check` is called now and then and may raise to stop. `tracks` is told who is there, and moves them, see
     `motion`. Raises SceneError naming the object that failed.
     """
     parts = _Parts(findings, bitmaps, material_override)
