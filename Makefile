@@ -27,13 +27,14 @@ READY := $(VENV)/.ready-$(VERSION)
 RUN := $(VENV)/bin/python
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render test test-addon test-matrix desktop-test bench gallery nodes closures extension extension-linux lint clean distclean
+.PHONY: help setup render test test-thorough test-addon test-matrix desktop-test bench gallery nodes closures extension extension-linux lint clean distclean
 
 help:
 	@echo "make render           render sample_scenes/cornell_box.blend to out/"
 	@echo "make test             run all tests"
 	@echo "make test-matrix      run what needs Blender in Blender 4.2, 4.5, 5.0 and 5.2"
 	@echo "make desktop-test     try Glanz in a Blender with a window: BLENDER=/path/to/blender make desktop-test"
+	@echo "make test-thorough    draw many new examples for tests of laws, in an hour; GLANZ_SEED=... draws the same again"
 	@echo "make bench            measure speed against Cycles"
 	@echo "make nodes            compare every node with Cycles for docs/nodes.md"
 	@echo "make closures         compare every shader with Cycles for docs/closures.md"
@@ -72,6 +73,9 @@ test-matrix:
 desktop-test: $(READY)
 	@$(RUN) tools/build_extension.py $$($(RUN) tests/desktop/run.py --platform)
 	@$(RUN) tests/desktop/run.py $(SCRIPTS)
+
+test-thorough: $(READY)
+	GLANZ_SEED=$${GLANZ_SEED:-$$(date +%s)} $(RUN) -m pytest -m thorough
 
 bench: $(READY)
 	$(RUN) -m benchmarks

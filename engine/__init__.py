@@ -34,8 +34,9 @@ from .registry import FILTERS, INTEGRATORS, PASSES, SAMPLERS, TEXTURES
 from .rendering import Image, Progress, Tile, metadata, prepare, render, render_image, render_plan
 from .requirements import Requirements
 from .scene import Bitmap, Coordinates, EnvironmentMap, Lens, Material, Medium, Mesh, MeshAttribute, Object, Scene, Settings, World
+from .scene.graphs import is_texture
 from .scene.points import average_of
-from .scene.textured import folded, is_texture, textures_of
+from .scene.textured import folded, textures_of
 from .textures.arithmetic import Math
 from .textures.attribute import Attribute
 from .textures.average import Average

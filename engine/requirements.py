@@ -7,7 +7,8 @@ from . import needs
 from .interfaces import has_detail, is_straight, lets_shadow_rays_pass
 from .registry import BSDFS, CAMERAS, FILTERS, INTEGRATORS, LIGHTS, PASSES, SAMPLERS
 from .scene.bodies import inside_of, sharing_space
-from .scene.textured import averaged, is_texture, material_textures, may_emit, may_reflect, with_inner
+from .scene.graphs import is_texture, with_inner
+from .scene.textured import averaged, material_textures, may_emit, may_reflect
 
 
 @dataclass(frozen=True)

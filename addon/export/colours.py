@@ -17,6 +17,7 @@ def as_texture(value):
     return LinearTexture((value,), (1.0,)) if isinstance(value, Coordinates) else value
 
 
+@np.errstate(invalid="ignore", over="ignore")
 def times(a, b):
     """The product of two values, as a colour."""
     if not varies(a) or not varies(b):
@@ -36,6 +37,7 @@ def _scaled(value, factor):
     return LinearTexture(terms.textures, tuple(times(f, factor) for f in terms.factors), times(terms.offset, factor))
 
 
+@np.errstate(invalid="ignore", over="ignore")
 def added(a, b):
     """The sum of two values, as a colour."""
     if not (varies(a) or varies(b)):

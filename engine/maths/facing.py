@@ -17,7 +17,8 @@ def schlick_facing(cos, blend):
     """
     blend = np.clip(blend, 0, 1 - _LEAST)
     exponent = np.where(blend < 0.5, 2 * blend, 0.5 / (1 - blend))
-    return 1 - np.abs(cos) ** exponent
+    with np.errstate(over="ignore"):
+        return 1 - np.abs(cos) ** exponent
 
 
 def facing_fresnel(cos, ior, is_front):

@@ -5,7 +5,9 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from ..maths.facing import across
 from .coordinates import Coordinates
+from .graphs import is_landing, with_inner
 
 _PROBES = 256
 _STEPS = (0.8191725133961645, 0.6710436067037893, 0.5497004779019703)
@@ -16,8 +18,11 @@ class Points:
     """N points; what a texture is handed as `at`. Each coordinate system and each texture is worked out once.
 
     Who inherits offers `attribute`(key), see `world.attributes.Attribute.at`; `across`, None or the half-axes of footprints
-    in units of what attributes change along; `beside`(axis), the points moved by half-axis 0 or 1; and what `OnPlane` shows.
-    By itself it is one point without a footprint, where textures of constants are looked up.
+    in units of what attributes change along; `beside`(axis), the points moved by half-axis 0 or 1; `moved_by`(a), those moved by
+    a; and what `OnPlane` shows. By itself it is one point without a footprint, where textures of constants are looked up.
+
+    Textures look around while others do that look around at them. So that this does not double with each of them, points around
+    the same ones are the same points wherever they are reached from, and have the footprints of those that they are beside.
     """
 
     count = 1
@@ -26,7 +31,8 @@ class Points:
     """(N,) where what looks at the points looks at others beside them as well, see `wavefront.cones`; None: everywhere."""
 
     def __init__(self):
-        self._known = {}
+        self._known, self._around = {}, {}
+        self._middle, self._place = weakref.ref(self), (0.0, 0.0, None)
 
     def value(self, x):
         """What an input is at the points: float32 (1, N) or (3, N), one column where it is the same for all."""
@@ -34,9 +40,10 @@ class Points:
             return self.look_up(x)[0]
         if not hasattr(x, "eval"):
             return np.array(x, np.float32).reshape(-1, 1)
-        # Textures are equal to none but themselves. (Not `once`: graphs are deep, and Python's stack is not.)
+        # Textures are equal to none but themselves.
         if x not in self._known:
-            self._known[x] = x.eval(self)
+            for part in filter(is_landing, with_inner(x, self._known)) if is_landing(x) else (x,):
+                self._known[part] = part.eval(self)
         return self._known[x]
 
     def once(self, key, function):
@@ -55,8 +62,34 @@ class Points:
         p = self.value(where)
         if self.across is None:
             return _columns(p, self.count), None
-        axes = tuple(self.once(axis, lambda axis=axis: self.beside(axis)).value(where) - p for axis in (0, 1))
-        return _columns(p, self.count), tuple(_columns(a, self.count) for a in axes)
+        right, up, _ = self._place
+        return _columns(p, self.count), self._at(right, up, None)._changes(where)
+
+    def _changes(self, where):
+        """How far the input `where` changes along the half-axes of footprints, two (3, N)."""
+        p, (right, up, _) = self.value(where), self._place
+        beside = [self._at(right, up, axis).value(where) for axis in (0, 1)]
+        return self.once((where, "changes"), lambda: tuple(_columns(value - p, self.count) for value in beside))
+
+    def away(self, right, up):
+        """The points so many pixels away along the axes `maths.facing.across` of the surface."""
+        x, y, axis = self._place
+        return self._at(x + right, y + up, axis)
+
+    def _at(self, right, up, axis):
+        """The points so many pixels from those that were there first; of these the ones beside, unless `axis` is None."""
+        place, middle = (right, up, axis), self._middle()
+        if place == (0.0, 0.0, None):
+            return middle
+        if place not in middle._around:
+            if axis is None:
+                x, y = across(middle.surface.n)
+                points = middle.moved_by((np.float32(right) * x + np.float32(up) * y) * middle.pixel_width)
+            else:
+                points = middle._at(right, up, None).beside(axis)
+            points._middle, points._place = self._middle, place
+            middle._around[place] = points
+        return middle._around[place]
 
     def _placed(self, coordinates):
         p, along_u, along_v = self.attribute(coordinates.attribute)

@@ -9,14 +9,9 @@ import numpy as np
 
 from ..constants import LUMINANCE
 from ..interfaces import albedo_of, asks_for_cosine, has_detail, is_pure
-from ..registry import TEXTURES
 from .coordinates import Coordinates
+from .graphs import inputs_of, is_texture, with_inner
 from .points import average_of, constant_of
-
-
-def is_texture(value):
-    """Whether a parameter is a texture."""
-    return type(value) in TEXTURES.values()
 
 
 def textures_of(value):
@@ -60,27 +55,6 @@ def _replaced(value, found):
         colour = np.broadcast_to(found(name, texture), 3)
         values[name] = float(np.dot(LUMINANCE, colour)) if is_number(value, name) else tuple(colour.tolist())
     return dataclasses.replace(value, **values) if values else value
-
-
-def inputs_of(texture):
-    """The values of a texture's inputs, constants and textures, those in tuples one by one."""
-    for f in dataclasses.fields(texture):
-        if f.type is object:
-            yield getattr(texture, f.name)
-        elif isinstance(value := getattr(texture, f.name), tuple):
-            yield from (x for x in value if is_texture(x) or isinstance(x, Coordinates))
-
-
-def with_inner(texture):
-    """`texture` and all textures that it is made of, each once, what it is made of first."""
-    found, stack = {}, [(texture, False)]
-    while stack:
-        part, is_done = stack.pop()
-        if is_done:
-            found[id(part)] = part
-        elif id(part) not in found:
-            stack += [(part, True), *((inner, False) for inner in inputs_of(part) if is_texture(inner))]
-    return tuple(found.values())
 
 
 def folded(texture):

@@ -11,8 +11,9 @@ from ..interfaces import albedo_of
 from ..registry import BSDFS, CAMERAS, FILTERS, INTEGRATORS, LIGHTS, PASSES, SAMPLERS
 from .coordinates import Coordinates
 from .environment import EnvironmentMap
+from .graphs import inputs_of, is_texture, with_inner
 from .medium import Medium
-from .textured import coordinates_of, inputs_of, is_texture, material_textures, plain, textures_of, with_inner
+from .textured import coordinates_of, material_textures, plain, textures_of
 
 
 def validate(scene, settings):

@@ -12,9 +12,10 @@ from ..arrays import frozen
 from ..errors import SceneError
 from ..maths.normals import vertex_normals
 from ..maths.poses import between
+from .graphs import is_texture
 from .medium import Medium
 from .motion import no_motion, settle
-from .textured import attributes_of, is_texture
+from .textured import attributes_of
 
 
 def _array(owner, name, dtype, shape):

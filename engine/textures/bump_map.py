@@ -7,6 +7,7 @@ import numpy as np
 
 from ..errors import SceneError
 from ..maths.facing import across, raised
+from ..maths.vectors import as_vector
 from . import registry
 
 
@@ -38,12 +39,12 @@ class BumpMap:
             raise SceneError(f"{owner}: width of its bump is {self.width}, allowed: finite, above 0")
 
     def eval(self, at):
-        ns = at.surface.ns if self.normal is None else at.value(self.normal)
-        step = np.float32(self.width) * at.pixel_width
+        ns = at.surface.ns if self.normal is None else as_vector(at.value(self.normal))
         right, up = across(at.surface.n)
+        step = np.float32(self.width) * at.pixel_width
         per_step = at.value(self.distance)[0] * np.float32(-at.frame.scale if self.is_dug else at.frame.scale) / step
         height = _height(self, at)
-        slopes = [per_step * (_height(self, at.moved_by(along * step)) - height) for along in (right, up)]
+        slopes = [per_step * (_height(self, at.away(*way)) - height) for way in ((self.width, 0.0), (0.0, self.width))]
         return raised(ns, right, up, slopes, np.maximum(at.value(self.strength)[0], 0))
 
 

@@ -7,6 +7,7 @@ import numpy as np
 
 from ..errors import SceneError
 from ..maths.gabor import SPREADS, phasor
+from ..maths.vectors import as_vector
 from ..scene.coordinates import GENERATED
 from ..scene.placing import numbers, placed, shared_key
 from . import registry
@@ -61,7 +62,7 @@ class GaborTexture:
         p, _ = placed(at, self.coordinates, self.scale, dimensions=self.dimensions)
         frequency, anisotropy, orientation = numbers(at, self.frequency, self.anisotropy, self.angle)
         if self.dimensions == 3:
-            orientation = at.value(self.orientation)
+            orientation = as_vector(at.value(self.orientation))
             x, y, z = orientation
             with np.errstate(divide="ignore", invalid="ignore"):
                 orientation = orientation / np.sqrt(x * x + y * y + z * z)

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from ..errors import SceneError
 from ..maths.facing import turned, unit
+from ..maths.vectors import as_vector
 from . import registry
 
 _SPACES = ("world", "object", "camera")
@@ -40,7 +41,7 @@ class VectorTransform:
         return (("world_from_object", ""), ("object_from_world", "")) if "object" in (self.source, self.target) else ()
 
     def eval(self, at):
-        a = at.value(self.vector)
+        a = as_vector(at.value(self.vector))
         if self.source == self.target:
             return a
         for space, way in ((self.source, 1), (self.target, -1)):

@@ -14,8 +14,9 @@ import numpy as np
 from ..arrays import Columns
 from ..maths.ggx import COSINES
 from ..maths.vectors import dot
+from ..scene.graphs import is_texture
 from ..scene.points import Points
-from ..scene.textured import is_isotropic, is_texture
+from ..scene.textured import is_isotropic
 from .filling import filled_in
 from .materials import Lobe, thresholds_of
 

@@ -36,8 +36,9 @@ def filled_in(materials, reflection, count, met):
 
 
 def _limit(lobes, own, count, lanes, rest, total):
-    """Darken all `lobes` at the points `lanes` where their albedo `total` (3, M) is more than the `rest` of light."""
+    """Darken all `lobes` at the points `lanes` where their albedo `total` (3, M or 1) is more than the `rest` of light."""
     factor = np.where(total > rest, np.maximum(rest, 0) / total, np.float32(1)).min(axis=0)
+    factor = np.broadcast_to(factor, lanes.shape)
     over = np.nonzero(factor < 1)[0]
     if not over.size:
         return

@@ -54,7 +54,7 @@ class Materials:
     shine       (3, M) float32, the same, but 1 where a texture gives it
     ambient     (3, M) float32, k_a
     kind        `Reflection`, or `TwoSided` where a lobe with a width transmits
-    textured    {row: the `Textured` columns of that material}
+    textured    {row: the `Textured` columns of that material; none, if but what passes straight on is textured}
     straight    {row: the transmittances of that material's lobes that light passes straight on, if it has textured ones}
     glowing     {row: the texture that is the emission of that material}
     relief      {row: the reliefs of that material}
@@ -91,6 +91,11 @@ class Materials:
             rows = [{name: value for name, value in lobe.row().items() if name not in without} for lobe in chosen]
             lobes.append(Lobe(bsdf, columns(rows)))
             albedos[slot] = luminance(bsdf.albedo(lobes[-1].k))
+        for row, material in enumerate(materials):
+            passed = [lobe for lobe in material.lobes if _is_passed(lobe, bsdfs)]
+            if len(passed) < len(material.lobes) and any(map(textures_of, passed)):
+                # Where more passes, less is left for the others, constant as they may be.
+                textured.setdefault(row, [])
         shares = _shares(albedos)
         emission, ambient = (_colours(getattr(averaged(m), name) for m in materials) for name in ("emission", "ambient"))
         kind = TwoSided if any(bsdf.transmits and not bsdf.is_specular for bsdf in bsdfs) else Reflection

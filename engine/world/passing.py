@@ -5,7 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..interfaces import albedo_of, is_straight, lets_shadow_rays_pass
-from ..scene.textured import averaged, is_texture, textures_of
+from ..scene.graphs import is_texture
+from ..scene.textured import averaged, textures_of
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -12,8 +12,8 @@ from ..maths.vectors import dot
 from ..maths.warps import square_to_cone, square_to_cone_pdf
 from ..scene.coordinates import Coordinates
 from ..scene.environment import EnvironmentMap
+from ..scene.graphs import is_texture, with_inner
 from ..scene.points import OnPlane
-from ..scene.textured import is_texture, with_inner
 from .environment import Environment
 from .texturing import clean
 

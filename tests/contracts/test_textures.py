@@ -41,8 +41,9 @@ from glanz.engine.interfaces import Texture
 from glanz.engine.maths.fractals import FRACTALS
 from glanz.engine.maths.voronoi import FEATURES
 from glanz.engine.scene.coordinates import GENERATED, UV
+from glanz.engine.scene.graphs import with_inner
 from glanz.engine.scene.points import OnPlane, Probes, average_of
-from glanz.engine.scene.textured import folded, with_inner
+from glanz.engine.scene.textured import folded
 from glanz.engine.textures.gradient import _SHAPES
 from glanz.engine.textures.sky import MODELS
 from glanz.engine.textures.wave import _PROFILES as PROFILES, _SHAPES as SHAPES
@@ -107,8 +108,7 @@ EXAMPLES = {
     "attribute": [Attribute("a", output) for output in ("colour", "number", "alpha", "opacity")],
     "object value": [ObjectValue("a", output) for output in ("colour", "number", "mean", "alpha")],
     "geometry": [
-        Geometry(output)
-        for output in ("normal", "object normal", "true normal", "incoming", "reflection", "parametric", "backfacing")
+        Geometry(output) for output in ("normal", "object normal", "true normal", "incoming", "reflection", "parametric", "backfacing")
     ],
     "camera data": [CameraData(output) for output in ("window", "vector", "depth", "distance")],
     "fresnel": [Fresnel(), Fresnel(NoiseTexture(), Geometry("incoming"))],
@@ -195,6 +195,18 @@ def test_inputs_may_be_any_numbers(plugin, wild):
             value = plugin(**{field.name: wild if isinstance(field.default, float) else (wild,) * 3})
             with np.errstate(all="ignore"):
                 assert value.eval(Points(somewhere(n=16))).dtype == np.float32
+
+
+@each
+@pytest.mark.parametrize("fed", [SLOPE, LinearTexture((SLOPE,), ((1.0, 0.5, 0.25),))], ids=["number", "triple"])
+def test_inputs_may_be_numbers_or_triples_that_vary(value, fed):
+    """Sockets of any kind feed sockets of any kind; where a single number is meant, the export makes it one of a triple."""
+    for field in dataclasses.fields(value):
+        is_number = field.type is object and np.shape(getattr(value, field.name)) == () and not isinstance(field.default, Coordinates)
+        if field.type is object and (fed is SLOPE or not is_number):
+            found = dataclasses.replace(value, **{field.name: fed}).eval(Points(somewhere(n=64)))
+            assert found.dtype == np.float32
+            assert found.shape[0] in (1, 3) and found.shape[1] in (1, 64)
 
 
 @each

@@ -10,6 +10,7 @@ from glanz.engine import (
     Dielectric,
     Lambert,
     LambertTransmission,
+    LinearTexture,
     Material,
     PerspectiveCamera,
     PointLight,
@@ -176,7 +177,7 @@ def furnace(lobes, world=1.0, **changes):
     sphere = h.thing(h.icosphere(2), Material(name="sphere", lobes=lobes))
     camera = PerspectiveCamera.look_at((0.1, -4, 0.3), (0, 0, 0), fov=0.6)
     scene = h.scene([sphere], camera=camera, world=world)
-    return h.pixels(scene, h.settings(width=24, height=24, samples=64, max_depth=100, **changes)).reshape(3, -1)
+    return h.pixels(scene, h.settings(**{"width": 24, "height": 24, "samples": 64, "max_depth": 100, **changes})).reshape(3, -1)
 
 
 @pytest.mark.parametrize("sampler", ["stratified", "sobol", "blue_noise"])
@@ -185,6 +186,12 @@ def test_what_loses_nothing_is_as_bright_as_what_surrounds_it(sampler):
     passing_share = np.array((0.5, 0.9, 0.1))
     image = furnace((Transparent(tuple(passing_share)), Lambert(tuple(1 - passing_share))), sampler=sampler)
     assert all(h.mean_is(channel, 1.0, floor=1e-6) for channel in image)
+
+
+def test_what_a_texture_lets_pass_is_taken_from_lobes_without_textures():
+    """Half of the light passes, so that half is left for the other lobe; without textures such a material is refused."""
+    image = furnace((Transparent(LinearTexture((), (), (0.5, 0.5, 0.5))), Lambert((0.8, 0.8, 0.8))), samples=4)
+    assert np.abs(image - 1).max() <= 1e-5
 
 
 def test_a_filter_alone_draws_no_number_and_has_no_noise():

@@ -6,7 +6,7 @@ import pytest
 
 from glanz.engine import ImageTexture, Lambert, Transparent
 from glanz.engine.maths.lookup import places
-from glanz.engine.scene.textured import with_inner
+from glanz.engine.scene.graphs import with_inner
 from glanz.tests.addon import blender
 from glanz.tests.addon.export.test_textures import PIXELS, exported, new_image
 from glanz.tests.textured import Anywhere, extremes

@@ -5,7 +5,7 @@ import pytest
 
 from glanz.addon.export.nodes import DEEPEST
 from glanz.engine import NoiseTexture
-from glanz.engine.scene.textured import with_inner
+from glanz.engine.scene.graphs import with_inner
 from glanz.tests.addon import blender
 
 _MIXES = 60

@@ -8,7 +8,7 @@ import pytest
 
 from glanz.addon.export import images
 from glanz.engine import ImageTexture
-from glanz.engine.scene.textured import with_inner
+from glanz.engine.scene.graphs import with_inner
 from glanz.tests.addon import blender
 from glanz.tests.addon.export.test_textures import exported, textured
 

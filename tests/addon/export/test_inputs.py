@@ -6,7 +6,7 @@ import pytest
 
 from glanz.addon.export.hashes import unit_of, unit_of_name
 from glanz.engine import Attribute, BumpMap, CameraData, Coordinates, Fresnel, Geometry, LayerWeight, LightPath, ObjectValue, Tangent
-from glanz.engine.scene.textured import with_inner
+from glanz.engine.scene.graphs import with_inner
 from glanz.tests.addon import blender
 
 

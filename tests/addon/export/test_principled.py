@@ -4,11 +4,12 @@ import itertools
 
 import numpy as np
 import pytest
-from hypothesis import given, settings, strategies as st
+from hypothesis import given, strategies as st
 
 from glanz.addon.export.principled import Layers, effective_ior
 from glanz.engine import Dielectric, GgxAlbedo, Gloss, Lambert, Mirror
 from glanz.engine.scene.points import OnPlane
+from glanz.tests.chance import law
 
 POINTS = 64
 UNIT = st.floats(0, 1, width=32)
@@ -22,7 +23,7 @@ def sent_on(lobes):
     return sum(np.broadcast_to(colour, (3, POINTS)) for colour in colours)
 
 
-@settings(max_examples=300, deadline=None, derandomize=True)
+@law(quick=300, thorough=10_000)
 @given(
     colours=st.tuples(COLOUR, COLOUR, COLOUR, COLOUR),
     shares=st.tuples(*[UNIT] * 6),

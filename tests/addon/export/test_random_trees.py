@@ -3,17 +3,17 @@
 import bpy
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, Phase, given, note, settings, strategies as st
+from hypothesis import given, note, strategies as st
 
 from glanz.addon.export import shaders as known
 from glanz.addon.export.values import TABLE
 from glanz.engine import Dielectric, Settings, render_image
 from glanz.tests.addon import blender
 from glanz.tests.addon.export import trees
+from glanz.tests.chance import law
 
 NODES = trees.offered()
 SHADERS, VALUES = NODES
-FAST = {"deadline": None, "derandomize": True, "database": None, "suppress_health_check": list(HealthCheck), "phases": [Phase.generate]}
 
 
 def stage(name="Odd"):
@@ -33,8 +33,12 @@ def stage(name="Odd"):
     return material, tree, tree.nodes.new("ShaderNodeOutputMaterial").inputs["Surface"]
 
 
-def picture(scene, side=8, samples=2, depth=3):
-    return render_image(scene, Settings(width=side, height=side, samples=samples, max_depth=depth, threads=1)).passes["Combined"]
+def image(scene, side=8, samples=2, depth=3):
+    return render_image(scene, Settings(width=side, height=side, samples=samples, max_depth=depth, threads=1))
+
+
+def picture(scene):
+    return image(scene).passes["Combined"]
 
 
 def told(tree):
@@ -48,7 +52,7 @@ def is_known(node):
 
 
 @given(st.data())
-@settings(max_examples=120, **FAST)
+@law(quick=120, thorough=1000)
 def test_any_tree_gives_a_finite_picture(data):
     _, tree, surface = stage()
     trees.grow(data.draw, tree, surface, NODES, trees.DEPTH)
@@ -58,19 +62,26 @@ def test_any_tree_gives_a_finite_picture(data):
 
 
 @given(st.data())
-@settings(max_examples=60, **FAST)
+@law(quick=60, thorough=1000)
 def test_no_tree_reflects_more_than_it_receives(data):
     """In a white furnace nothing is brighter than its surroundings."""
     _, tree, surface = stage()
-    trees.grow(data.draw, tree, surface, (trees.without_glow(SHADERS), VALUES), trees.DEPTH, trees.EVEN)
+    numbers = data.draw(st.sampled_from((trees.EVEN, trees.ODD)))
+    trees.grow(data.draw, tree, surface, (trees.without_glow(SHADERS), VALUES), trees.DEPTH, numbers)
     trees.black_glow(tree)
     note(told(tree))
     assert not gains(blender.export()[0])
 
 
 def gains(scene):
-    """Whether the box is brighter than the white world around it, beyond the noise of 64 pixels with 16 samples each."""
-    found = picture(scene, samples=16, depth=8)[..., :3].reshape(-1, 3)
+    """Whether the box is brighter than the white world around it, beyond the noise of 64 pixels with 16 samples each.
+
+    Or whether a path ended in something that is no number, which the film leaves out.
+    """
+    found = image(scene, samples=16, depth=8)
+    if any("not finite" in line for line in found.warnings):
+        return True
+    found = found.passes["Combined"][..., :3].reshape(-1, 3)
     return bool((found.mean(axis=0) > 1 + 1e-3 + 5 * found.std(axis=0) / np.sqrt(len(found))).any())
 
 

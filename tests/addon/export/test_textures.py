@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from glanz.engine import CheckerTexture, Gloss, ImageTexture, Lambert, LambertTransmission
+from glanz.engine.scene.graphs import with_inner
 from glanz.engine.scene.points import OnPlane
-from glanz.engine.scene.textured import with_inner
 from glanz.tests.addon import blender
 from glanz.tests.textured import extremes
 

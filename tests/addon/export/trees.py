@@ -1,6 +1,7 @@
 """Random node trees, drawn by Hypothesis: any node that Blender offers, in any mode, fed by any other."""
 
 import warnings
+from math import inf
 
 import bpy
 from hypothesis import strategies as st
@@ -9,7 +10,7 @@ from glanz.tests.addon import blender
 
 DEPTH = 6
 """Nodes between the output and the last one, at most."""
-ODD = st.sampled_from((0.0, -0.0, 1.0, -1.0, 0.5, 2.0, 7.3, -3.7, 1e-30, 1e6, -1e6, 1e30))
+ODD = st.sampled_from((0.0, -0.0, 1.0, -1.0, 0.5, 2.0, 7.3, -3.7, 1e-30, 1e6, -1e6, 1e30, -1e30, inf, -inf))
 EVEN = st.sampled_from((0.0, 0.2, 0.5, 0.7, 1.0))
 _GLOWS = ("ShaderNodeEmission", "ShaderNodeBackground", "ShaderNodeEeveeSpecular")
 _MODES = ("ENUM", "BOOLEAN")

@@ -7,7 +7,7 @@ import zipfile
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings as hypothesis_settings, strategies as st
+from hypothesis import given, strategies as st
 
 from glanz.engine import (
     AreaLight,
@@ -39,6 +39,7 @@ from glanz.engine import (
     write_scene,
 )
 from glanz.engine.registry import BSDFS, CAMERAS, LIGHTS, TEXTURES
+from glanz.tests.chance import law
 
 
 def a_scene():
@@ -321,7 +322,7 @@ def test_what_is_no_file_is_a_file_error(tmp_path, path, cause):
 
 
 @given(cut=st.integers(0, 100_000))
-@hypothesis_settings(max_examples=60, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@law(quick=60, thorough=1000)
 def test_a_truncated_file_is_a_file_error(saved, tmp_path, cut):
     data = saved.read_bytes()
     (tmp_path / "b").write_bytes(data[: cut % len(data)])
@@ -330,7 +331,7 @@ def test_a_truncated_file_is_a_file_error(saved, tmp_path, cut):
 
 
 @given(st.lists(st.tuples(st.integers(0, 2**20), st.integers(0, 255)), min_size=1, max_size=8))
-@hypothesis_settings(max_examples=200, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@law(quick=200, thorough=10_000)
 def test_damaged_bytes_give_a_scene_or_a_file_error(saved, tmp_path, changes):
     data = bytearray(saved.read_bytes())
     for position, value in changes:
@@ -340,7 +341,7 @@ def test_damaged_bytes_give_a_scene_or_a_file_error(saved, tmp_path, changes):
 
 
 @given(st.lists(st.tuples(st.integers(0, 2**20), st.integers(0, 255)), min_size=1, max_size=4), st.booleans())
-@hypothesis_settings(max_examples=300, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@law(quick=300, thorough=10_000)
 def test_damage_behind_right_checksums_gives_a_scene_or_a_file_error(saved, tmp_path, changes, in_array):
     def change(name, data):
         if name != ("arrays/0.npy" if in_array else "scene.json"):
