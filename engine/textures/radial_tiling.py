@@ -6,6 +6,7 @@ import numpy as np
 
 from ..errors import SceneError
 from ..maths.tiling import segment_number, tiles
+from ..maths.vectors import as_vector
 from ..scene.placing import numbers
 from . import registry
 
@@ -37,7 +38,7 @@ class RadialTiling:
             raise SceneError(f"{owner}: output of Radial Tiling is '{self.output}', allowed: {', '.join(_OUTPUTS)}")
 
     def eval(self, at):
-        x, y = at.value(self.vector)[:2]
+        x, y, _ = as_vector(at.value(self.vector))
         sides, roundness = numbers(at, self.sides, self.roundness)
         sides = np.fmax(sides, np.float32(2))
         if self.output == "number":
