@@ -6,15 +6,23 @@ asks for. A pass of the engine that has no row here is not offered in Blender.
 
 from dataclasses import dataclass
 
+import bpy
+
 from . import backend
 
 
 @dataclass(frozen=True)
 class BlenderPass:
-    """kind: Blender's channel type; flag: the property of the view layer that switches the pass on, by its path, empty: always on."""
+    """How Blender knows a pass.
+
+    kind      Blender's channel type
+    flag      the property of the view layer that switches it on, by its path; empty: always on
+    before_5  its name before Blender 5.0; empty: the same. The engine has the names of today
+    """
 
     kind: str
     flag: str = ""
+    before_5: str = ""
 
 
 TABLE = {
@@ -22,6 +30,17 @@ TABLE = {
     "Combined": BlenderPass("COLOR"),
     "Depth": BlenderPass("VALUE", "use_pass_z"),
     "Normal": BlenderPass("VECTOR", "use_pass_normal"),
+    "Diffuse Direct": BlenderPass("COLOR", "use_pass_diffuse_direct", "DiffDir"),
+    "Diffuse Indirect": BlenderPass("COLOR", "use_pass_diffuse_indirect", "DiffInd"),
+    "Diffuse Color": BlenderPass("COLOR", "use_pass_diffuse_color", "DiffCol"),
+    "Glossy Direct": BlenderPass("COLOR", "use_pass_glossy_direct", "GlossDir"),
+    "Glossy Indirect": BlenderPass("COLOR", "use_pass_glossy_indirect", "GlossInd"),
+    "Glossy Color": BlenderPass("COLOR", "use_pass_glossy_color", "GlossCol"),
+    "Transmission Direct": BlenderPass("COLOR", "use_pass_transmission_direct", "TransDir"),
+    "Transmission Indirect": BlenderPass("COLOR", "use_pass_transmission_indirect", "TransInd"),
+    "Transmission Color": BlenderPass("COLOR", "use_pass_transmission_color", "TransCol"),
+    "Emission": BlenderPass("COLOR", "use_pass_emit", "Emit"),
+    "Environment": BlenderPass("COLOR", "use_pass_environment", "Env"),
     "Sample Count": BlenderPass("VALUE", "glanz.use_pass_sample_count"),
 }
 
@@ -38,6 +57,12 @@ def chosen(view_layer):
     return tuple(key for key, (_, row) in offered().items() if not row.flag or getattr(*switch(view_layer, row.flag)))
 
 
+def name_of(key):
+    """What this version of Blender calls a pass of the engine."""
+    row = TABLE[key]
+    return row.before_5 if row.before_5 and bpy.app.version < (5, 0) else key
+
+
 def switch(view_layer, flag):
     """(owner, name) of the property that is meant by a `flag` of the table."""
     path, _, name = flag.rpartition(".")
@@ -49,4 +74,4 @@ def register_passes(engine, scene, view_layer):
     available = offered()
     for key in chosen(view_layer):
         plugin, row = available[key]
-        engine.register_pass(scene, view_layer, key, len(plugin.channels), plugin.channels, row.kind)
+        engine.register_pass(scene, view_layer, name_of(key), len(plugin.channels), plugin.channels, row.kind)

@@ -9,6 +9,7 @@ from contextlib import contextmanager
 import numpy as np
 
 from ..engine import PASSES
+from .passes import name_of
 
 
 def flat_pixels(values):
@@ -61,9 +62,10 @@ def make_room(engine, settings, layer):
 
 def write_tile(engine, tile, region, layer, view=""):
     """Show and keep a finished `tile`; passes that the tile does not have stay empty."""
+    known = {name_of(key): values for key, values in tile.passes.items()}
     with open_result(engine, place_in_result(tile, region), layer, view) as result:
         for render_pass in result.layers[0].passes:
-            values = tile.passes.get(render_pass.name)
+            values = known.get(render_pass.name)
             if values is not None:
                 render_pass.rect.foreach_set(flat_pixels(values))
 

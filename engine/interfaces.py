@@ -283,19 +283,23 @@ class Filter(Protocol):
 class Pass(Protocol):
     """One result of a render: as many channels as `channels` has letters.
 
-    at_first_hit  `values(plan, rays, surface)` (C, M) is recorded where camera rays hit; elsewhere it is `background`
-    reduction     what a pixel is of its samples: their "mean", the "first" of them, or their "sum"
+    records     what it writes down along the way, (C, slots), which is `background` before:
+                "first hit": `values(plan, rays, surface, reflection)` (C, M) where camera rays hit;
+                "light": of all light that `wavefront.film.Film.add` is told of its `part(plan, rays, lanes, L, light, bounces)` (C, M);
+                "": nothing, it is what `gather(film)` (C, slots) makes of the film at the end
+    reduction   what a pixel is of its samples: their "mean", the "first" of them, or their "sum"
+    divided_by  the pass whose share it is, and by which it is divided at the end; "" for none
+
+    One that records light and asks by which kinds of lobes it has left the first surface says `is_split = True`, see
+    `wavefront.splitting`.
     """
 
     key: str
     label: str
     channels: str
-    at_first_hit: bool
+    records: str
     reduction: str
-
-    @staticmethod
-    def gather(radiance, first_hits):
-        """Channels (C, slots) from the paths' radiance (3, slots) and what was recorded at first hits (C, slots)."""
+    divided_by: str
 
 
 @runtime_checkable

@@ -24,6 +24,7 @@ TEXTURES = "textures"
 FOOTPRINTS = "footprints"
 RELIEF = "relief"
 LIGHT_PATHS = "light paths"
+SPLIT_LIGHT = "split light"
 
 MEANING = {
     GEOMETRY: "triangles to intersect",
@@ -47,6 +48,7 @@ MEANING = {
     FOOTPRINTS: "textures with detail, averaged over what a ray stands for",
     RELIEF: "shading normals bent by textures",
     LIGHT_PATHS: "paths that know what has scattered them",
+    SPLIT_LIGHT: "light that is told apart by the kinds of lobes that have sent it to the camera",
 }
 
 

@@ -30,7 +30,7 @@ from .wavefront.cones import (
     no_footprints,
     start_cones_in_range,
 )
-from .wavefront.direct import any_side, no_side, remember_side, shaded_side, shadow_rays_in_front, shadow_rays_on_either_side
+from .wavefront.direct import any_side, no_side, remember_side, shaded_side, shadow_rays_in_front, shadow_rays_on_either_side, unsplit
 from .wavefront.emission import add_emission, even_shine, textured_shine
 from .wavefront.escape import add_background, add_environment, add_light_hits, add_light_hits_beyond
 from .wavefront.motion import (
@@ -47,6 +47,7 @@ from .wavefront.motion import (
 from .wavefront.numbers import Numbers, one_of_the_lobes, only_lobe
 from .wavefront.passing import travel_through, unblocked_through
 from .wavefront.relief import bend_normals
+from .wavefront.splitting import not_split, split_by_lobes, split_light
 from .wavefront.texturing import fill_in_textures
 from .wavefront.tiles import EvenTile
 from .wavefront.visibility import all_of_it, all_the_way, closest, interact_at_rest, occluded, seen_at_rest, travel, unblocked
@@ -70,7 +71,8 @@ class Plan:
     reach              how far (plan, rays) rays go
     travel             the hits (plan, rays, film) of a batch, see `wavefront.visibility`
     lit_side           the normals (surface) on the side that a choice of lights is for; None: any
-    shadow_rays        the shadow rays (plan, rays, surface, wi, distance) to points on lights
+    shadow_rays        the shadow rays (plan, rays, surface, reflection, wi, distance) to points on lights
+    split_light        the rays (plan, rays, surface, reflection, wi) with what passes ask of light that they reflect
     unblocked          the shadow rays (plan, rays, o, d, limit, candidate) that arrive
     left               the share of light (plan, rays, t) that is left after a way t
     seen_from_camera   points (plan, rays, p) of render space as `camera` and `camera_k` describe them
@@ -84,9 +86,10 @@ class Plan:
     reflect            the reflection (surface) of its materials, see `Materials.at`
     adjust_reflection  stages (plan, rays, surface, reflection) -> reflection: what changes its lobes
     on_surface         stages (plan, rays, surface, reflection, film) at every surface: direct light
-    on_leaving         stages (plan, rays, surface, scattered) that renew what scattered rays carry
+    on_leaving         stages (plan, rays, surface, reflection, scattered) that renew what scattered rays carry
     first_hits         the passes that record where camera rays hit
     tile               how the pixels of a tile are sampled, see `wavefront.tiles`
+    passes             those that are gathered: what the settings ask for, and what that is divided by
     last_depth         the depth of the last rays that are traced
     The other functions are choices that cost nothing where there is nothing to choose.
     """
@@ -111,6 +114,7 @@ class Plan:
     travel: object
     lit_side: object
     shadow_rays: object
+    split_light: object
     unblocked: object
     left: object
     seen_from_camera: object
@@ -182,7 +186,10 @@ class Plan:
         scale = world.frame.scale
         place = world.frame.points(camera.position[:, None])[:, 0]
         row = camera.row(settings.width, settings.height, scale) | (clip_row(camera, scale) if is_clipped else {})
-        chosen = tuple(PASSES[key] for key in settings.passes)
+        # Those that others are divided by, too.
+        asked = [PASSES[key] for key in settings.passes]
+        gathered = tuple(dict.fromkeys((*asked, *(PASSES[p.divided_by] for p in asked if p.divided_by))))
+        splits = needs.SPLIT_LIGHT in requirements
         return cls(
             scene=scene,
             settings=settings,
@@ -201,6 +208,7 @@ class Plan:
                 *(CARRIED if has_cones else ()),
                 *((("facing", no_side),) if minds_side else ()),
                 *(light_path.CARRIED if has_past else ()),
+                *((("split", not_split),) if splits else ()),
             ),
             aim=aim_cones(aim) if has_cones else aim,
             aperture=bladed_aperture if camera.lens.blades else round_aperture,
@@ -217,6 +225,7 @@ class Plan:
             travel=travel_through if passes else travel,
             lit_side=shaded_side if minds_side else any_side,
             shadow_rays=shadow_rays_on_either_side if world.materials.kind is TwoSided else shadow_rays_in_front,
+            split_light=split_light if splits else unsplit,
             unblocked=unblocked_through if tints else media.absorbed(unblocked) if absorbs else unblocked,
             left=media.left_by_media if absorbs else all_of_it,
             seen_from_camera=seen_from_camera if follows else seen_from(place) if place.any() else seen_at_rest,
@@ -231,7 +240,6 @@ class Plan:
             reflect=(world.by_cosine or world.materials).at,
             adjust_reflection=(
                 *((fill_in_textures,) if world.materials.textured else ()),
-                *((light_path.remember_lobes,) if has_past else ()),
                 *adjust_reflection,
             ),
             on_surface=integrator.on_surface if can_sample else (),
@@ -239,10 +247,11 @@ class Plan:
                 *((media.change_media,) if has_media else ()),
                 *((leave_with_cones,) if has_cones else ()),
                 *((remember_side,) if minds_side else ()),
-                *((light_path.leave_by(integrator),) if has_past else ()),
+                *((light_path.leave_by_lobes,) if has_past else ()),
+                *((split_by_lobes,) if splits else ()),
             ),
-            first_hits=tuple(p for p in chosen if p.at_first_hit),
-            passes=chosen,
+            first_hits=tuple(p for p in gathered if p.records == "first hit"),
+            passes=gathered,
             tile=AdaptiveTile if needs.ADAPTIVE in requirements else EvenTile,
             scatter=integrator.scatter,
             shading_normals=smooth_normals if smooth else flat_normals,

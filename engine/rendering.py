@@ -217,7 +217,7 @@ def _render_tile(plan, place, work, samples):
             paths += rays.slot.size
             work.finish(place, (number + paths / (pixels.px.size * (end - begin))) / tile.most_rounds(plan.settings))
             if time.monotonic() - shown > SHOW_SECONDS:
-                work.show(_tile(place, tile.result(), is_final=False))
+                work.show(_tile(plan, place, tile.result(), is_final=False))
                 shown = time.monotonic()
         work.count_bad(film.bad_samples)
         film.bad_samples = 0
@@ -225,12 +225,12 @@ def _render_tile(plan, place, work, samples):
         work.tiles[place] = tile
         return _tile(place, tile.result(), is_final=False)
     work.finish(place, 1)
-    return _tile(place, tile.result(), is_final=True)
+    return _tile(plan, place, tile.result(), is_final=True)
 
 
-def _tile(place, values, is_final):
+def _tile(plan, place, values, is_final):
     x, y, width, height = place
-    passes = {name: np.ascontiguousarray(v.reshape(-1, height, width).transpose(1, 2, 0)) for name, v in values.items()}
+    passes = {name: np.ascontiguousarray(values[name].reshape(-1, height, width).transpose(1, 2, 0)) for name in plan.settings.passes}
     return Tile(x, y, width, height, passes, is_final)
 
 

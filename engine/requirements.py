@@ -34,6 +34,8 @@ class Requirements:
         ask(needs.of_plugin("filter", FILTERS[settings.pixel_filter]), "settings")
         for key in settings.passes:
             ask(needs.of_plugin("pass", PASSES[key]), "settings")
+            if getattr(PASSES[key], "is_split", False):
+                ask(needs.SPLIT_LIGHT, "settings")
         if settings.adaptive_threshold:
             ask(needs.ADAPTIVE, "settings")
         for need in _needs_of(scene.camera):

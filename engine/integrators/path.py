@@ -23,4 +23,4 @@ class Path:
     def scatter(plan, rays, surface, reflection):
         u1 = plan.choose_lobe(plan, rays)
         wi, weight, pdf = reflection.scatter(surface, u1, plan.numbers.two(rays, Dimension.DIRECTION))
-        return go_on(plan, rays, surface, wi, weight, pdf)
+        return go_on(plan, rays, surface, reflection, wi, weight, pdf)

@@ -25,4 +25,4 @@ class BlindPath:
         u1 = plan.choose_lobe(plan, rays)
         wi, weight, pdf = reflection.scatter(surface, u1, plan.numbers.two(rays, Dimension.DIRECTION))
         # What is found need not be shared with a shadow ray.
-        return go_on(plan, rays, surface, wi, weight, np.full_like(pdf, np.inf))
+        return go_on(plan, rays, surface, reflection, wi, weight, np.full_like(pdf, np.inf))

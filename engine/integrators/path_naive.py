@@ -27,4 +27,4 @@ class NaivePath:
     def scatter(plan, rays, surface, reflection):
         u1 = plan.choose_lobe(plan, rays)
         wi, weight, pdf = reflection.scatter(surface, u1, plan.numbers.two(rays, Dimension.DIRECTION), uniformly=True)
-        return go_on(plan, rays, surface, wi, weight, np.full_like(pdf, np.inf))
+        return go_on(plan, rays, surface, reflection, wi, weight, np.full_like(pdf, np.inf))

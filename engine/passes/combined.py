@@ -12,9 +12,10 @@ class Combined:
     key = "Combined"
     label = "Combined"
     channels = "RGBA"
-    at_first_hit = False
+    records = ""
     reduction = "mean"
+    divided_by = ""
 
     @staticmethod
-    def gather(radiance, first_hits):
-        return np.concatenate((radiance, np.ones_like(radiance[:1])))
+    def gather(film):
+        return np.concatenate((film.radiance, 1 - film.clear))

@@ -10,15 +10,12 @@ class Depth:
     key = "Depth"
     label = "Depth"
     channels = "Z"
-    at_first_hit = True
+    records = "first hit"
     reduction = "first"
+    divided_by = ""
     background = 1e10
 
     @staticmethod
-    def values(plan, rays, surface):
+    def values(plan, rays, surface, reflection):
         p = plan.seen_from_camera(plan, rays, surface.p)
         return plan.camera.depth(plan.camera_k, p)[None] / plan.world.frame.scale
-
-    @staticmethod
-    def gather(radiance, first_hits):
-        return first_hits

@@ -10,14 +10,11 @@ class Normal:
     key = "Normal"
     label = "Normal"
     channels = "XYZ"
-    at_first_hit = True
+    records = "first hit"
     reduction = "mean"
+    divided_by = ""
     background = 0.0
 
     @staticmethod
-    def values(plan, rays, surface):
+    def values(plan, rays, surface, reflection):
         return surface.ns
-
-    @staticmethod
-    def gather(radiance, first_hits):
-        return first_hits

@@ -12,9 +12,10 @@ class SampleCount:
     key = "Sample Count"
     label = "Sample Count"
     channels = "X"
-    at_first_hit = False
+    records = ""
     reduction = "sum"
+    divided_by = ""
 
     @staticmethod
-    def gather(radiance, first_hits):
-        return np.ones_like(radiance[:1])
+    def gather(film):
+        return np.ones_like(film.clear)

@@ -29,7 +29,7 @@ from ..constants import ONE_MINUS_EPS32
 from ..maths.hashing import mix
 from ..registry import PASSES
 from .cones import WIDTHS
-from .film import Film
+from .film import Film, shown
 from .tiles import Pixels, rectangle
 
 _COLOURS = "Combined"
@@ -144,8 +144,8 @@ class AdaptiveTile:
         for p in self._passes:
             values = _gathered(p.reduction, [level[p.key] for level in levels], self._divided)
             values = values.reshape(-1, height, width)[:, own_y - y :, own_x - x :][:, :own_height, :own_width]
-            result[p.key] = values.reshape(len(values), -1).astype(np.float32)
-        return result
+            result[p.key] = values.reshape(len(values), -1)
+        return shown(self._passes, result)
 
     def _to_divide(self, level, x, y):
         """Which of the cells x, y (P,) of a level differ from those around them, if they matter for the tile."""

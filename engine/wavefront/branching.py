@@ -26,9 +26,10 @@ def mirrored_and_refracted(plan, rays, surface, reflection):
 
     Which one a ray has taken is known to its random numbers (`stream`), or siblings would share theirs.
     """
+    singular = dataclasses.replace(reflection, rough=())
     for i, (wi, weight) in enumerate(reflection.branches(surface)):
         beta = rays.beta * weight
-        batch = leaving(plan, rays, surface, wi, beta, np.full_like(wi[0], np.inf))
+        batch = leaving(plan, rays, surface, singular, wi, beta, np.full_like(wi[0], np.inf))
         yield _contributing(plan, dataclasses.replace(batch, stream=int(mix_int(rays.stream + i)) if i else rays.stream))
 
 
@@ -57,7 +58,7 @@ def spread(plan, rays, surface, reflection, count):
         beta = sibling.beta * weight
         alive, q = survive(plan, sibling, beta)
         beta /= q
-        scattered = leaving(plan, sibling, surface, wi, beta, pdf)
+        scattered = leaving(plan, sibling, surface, reflection, wi, beta, pdf)
         yield _contributing(plan, scattered if alive.all() else scattered.take(np.nonzero(alive)[0]))
 
 

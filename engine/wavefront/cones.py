@@ -67,7 +67,7 @@ def landing_with_cones(interact):
     return landed
 
 
-def leave_with_cones(plan, rays, surface, scattered):
+def leave_with_cones(plan, rays, surface, reflection, scattered):
     """Scattered rays start with cones as wide as those that have landed."""
     scattered.carried.width = scattered.carried.extent
     scattered.carried.is_even = scattered.carried.is_even & np.isinf(scattered.pdf)

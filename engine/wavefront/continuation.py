@@ -10,22 +10,22 @@ ROULETTE_DEPTH = 1
 """Paths of more bounces than this survive with the square root of their throughput."""
 
 
-def go_on(plan, rays, surface, wi, weight, pdf):
-    """The batches (one) of `rays` that leave `surface` along wi (3, N), with throughput times weight (3, N)."""
+def go_on(plan, rays, surface, reflection, wi, weight, pdf):
+    """The batches (one) of `rays` that leave `surface`, by its `reflection`, along wi (3, N), with throughput times weight (3, N)."""
     beta = rays.beta * weight
     alive, q = survive(plan, rays, beta)
     beta /= q
-    scattered = leaving(plan, rays, surface, wi, beta, pdf)
+    scattered = leaving(plan, rays, surface, reflection, wi, beta, pdf)
     return (scattered if alive.all() else scattered.take(np.nonzero(alive)[0]),)
 
 
-def leaving(plan, rays, surface, wi, beta, pdf):
-    """The rays that leave `surface` along wi (3, N) with throughput beta (3, N), and carry on what `rays` carried."""
+def leaving(plan, rays, surface, reflection, wi, beta, pdf):
+    """The rays that leave `surface`, by its `reflection`, along wi (3, N) with throughput beta (3, N), and carry on what `rays` carried."""
     carried = Columns(**vars(rays.carried))
     origins = plan.leave(surface, wi)
     scattered = Rays(origins, wi, beta, pdf, rays.slot, rays.key, rays.sample, rays.depth + 1, rays.split, rays.stream, carried)
     for stage in plan.on_leaving:
-        stage(plan, rays, surface, scattered)
+        stage(plan, rays, surface, reflection, scattered)
     return scattered
 
 

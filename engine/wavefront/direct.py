@@ -25,28 +25,30 @@ def add_direct_light(plan, rays, surface, reflection, film):
     L = rays.beta * f
     E *= cos * power_heuristic(pdf * probability, world.lights.rival(index, scattered_pdf)) / probability
     L *= E
-    arriving(plan, rays, surface, wi, distance, cos, L, film)
+    arriving(plan, rays, surface, reflection, wi, distance, cos, L, index, film)
 
 
-def arriving(plan, rays, surface, wi, distance, cos, L, film):
+def arriving(plan, rays, surface, reflection, wi, distance, cos, L, light, film):
     """Add L (3, N), reflected light from the directions wi (3, N), where nothing is in the way up to `distance` (N,).
 
-    Only where cos (N,), that of `reflection.cosine`, is above 0.
+    Only where cos (N,), that of `reflection.cosine`, is above 0. `light` is where it comes from, see `Film.add`.
     """
     # Not "L > 0": what is not a number goes to the film, which counts it.
     candidate = ~(np.maximum(np.maximum(L[0], L[1]), L[2]) <= 0) & (cos > 0)
-    lanes, share = plan.unblocked(plan, *plan.shadow_rays(plan, rays, surface, wi, distance), candidate)
-    film.add(rays.slot.take(lanes), L.take(lanes, axis=1) * share)
+    lanes, share = plan.unblocked(plan, *plan.shadow_rays(plan, rays, surface, reflection, wi, distance), candidate)
+    light = light.take(lanes) if np.ndim(light) else light
+    lit = plan.split_light(plan, rays, surface, reflection, wi)
+    film.add(plan, lit, lanes, L.take(lanes, axis=1) * share, light, rays.depth + 1)
 
 
-def shadow_rays_in_front(plan, rays, surface, wi, distance):
+def shadow_rays_in_front(plan, rays, surface, reflection, wi, distance):
     """Shadow rays to what lies at `distance` (N,) along wi (3, N) from surface.o: rays, o, d (3, N), and limit (N,)."""
     return rays, surface.o, wi, distance * SHORTENED
 
 
-def shadow_rays_on_either_side(plan, rays, surface, wi, distance):
+def shadow_rays_on_either_side(plan, rays, surface, reflection, wi, distance):
     """The same, where light may come through the surface: what lies behind it is sought from behind, as scattered rays do."""
-    shadow = dataclasses.replace(leaving(plan, rays, surface, wi, rays.beta, distance), depth=rays.depth)
+    shadow = dataclasses.replace(leaving(plan, rays, surface, reflection, wi, rays.beta, distance), depth=rays.depth)
     d, limit = wi, distance
     behind = np.nonzero((dot(surface.n, wi) < 0) & np.isfinite(distance))[0]
     if behind.size:
@@ -56,6 +58,11 @@ def shadow_rays_on_either_side(plan, rays, surface, wi, distance):
         limit[behind] = length(way)
         d[:, behind] = way / limit.take(behind)
     return shadow, shadow.o, d, limit * SHORTENED
+
+
+def unsplit(plan, rays, surface, reflection, wi):
+    """The rays that have met `surface`, for light that it reflects from wi (3, N): nobody asks by which lobes."""
+    return rays
 
 
 def any_side(surface):
@@ -73,6 +80,6 @@ def no_side(plan, rays):
     return np.zeros_like(rays.d)
 
 
-def remember_side(plan, rays, surface, scattered):
+def remember_side(plan, rays, surface, reflection, scattered):
     """The stage that has scattered rays know which way the surface faces that they leave, for lights that they find."""
     scattered.carried.facing = surface.ns

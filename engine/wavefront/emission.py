@@ -16,15 +16,16 @@ def add_emission(plan, rays, hits, film):
     if not lanes.size:
         return
     patch = world.emitters.patch.take(hits.prim.take(lanes) - world.triangles.first_emitter)
+    index = world.lights.first_patch + patch
     L = k.radiance.take(patch, axis=1) * rays.beta.take(lanes, axis=1)
     L = plan.shine(plan, rays, hits, lanes, L)
     if rays.depth:
         cos = np.abs(dot(k.normal.take(patch, axis=1), rays.d.take(lanes, axis=1)))
         t = hits.t.take(lanes)
         pdf = patches.pdf(k.area.take(patch) * cos / (t * t))
-        pdf *= world.lights.chance(world.lights.first_patch + patch, rays, lanes)
+        pdf *= world.lights.chance(index, rays, lanes)
         L *= power_heuristic(rays.pdf.take(lanes), pdf)
-    film.add(rays.slot.take(lanes), L)
+    film.add(plan, rays, lanes, L, index, rays.depth)
 
 
 def even_shine(plan, rays, hits, lanes, L):

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from .film import BACKGROUND
 from .mis import power_heuristic
 
 _FARTHEST = np.finfo(np.float32).max
@@ -11,7 +12,7 @@ _FARTHEST = np.finfo(np.float32).max
 def add_background(plan, rays, hits, film):
     """Rays that met nothing see the world. It is found by scattered rays alone, so it needs no weight."""
     lanes = np.nonzero(hits.prim < 0)[0]
-    film.add(rays.slot.take(lanes), rays.beta.take(lanes, axis=1) * plan.world.background)
+    film.add(plan, rays, lanes, rays.beta.take(lanes, axis=1) * plan.world.background, BACKGROUND, rays.depth)
 
 
 def add_environment(plan, rays, hits, film):
@@ -20,30 +21,31 @@ def add_environment(plan, rays, hits, film):
     if not lanes.size:
         return
     lights, d = plan.world.lights, rays.d.take(lanes, axis=1)
+    index = lights.first_patch - 1
     if rays.depth:
         L, pdf = lights.environment.hit(d)
-        chosen = lights.chance(np.full(lanes.size, lights.first_patch - 1), rays, lanes)
+        chosen = lights.chance(np.full(lanes.size, index), rays, lanes)
         L *= power_heuristic(rays.pdf.take(lanes), pdf * chosen)
     else:
         L = lights.environment.radiance(d)
     L *= rays.beta.take(lanes, axis=1)
-    film.add(rays.slot.take(lanes), L)
+    film.add(plan, rays, lanes, L, index, rays.depth)
 
 
 def add_light_hits(plan, rays, hits, film):
     """Light objects nearer than the geometry; they do not hide what is behind them."""
-    for lanes, _, L in light_hits(plan, rays, hits):
-        film.add(rays.slot.take(lanes), L)
+    for lanes, _, L, light in light_hits(plan, rays, hits):
+        film.add(plan, rays, lanes, L, light, rays.depth)
 
 
 def add_light_hits_beyond(plan, rays, hits, film):
     """The same beyond the surface that rays have passed last."""
-    for lanes, _, L in light_hits_beyond(plan, rays, hits):
-        film.add(rays.slot.take(lanes), L)
+    for lanes, _, L, light in light_hits_beyond(plan, rays, hits):
+        film.add(plan, rays, lanes, L, light, rays.depth)
 
 
 def light_hits(plan, rays, hits):
-    """For each light object that rays meet: which rays (M,), how far away (M,), and the radiance (3, M) that counts."""
+    """For each light object that rays meet: which rays (M,), how far away (M,), the radiance (3, M) that counts, and its place."""
     return _lamps(plan, rays, np.float32(0), hits)
 
 
@@ -71,7 +73,7 @@ def _lamps(plan, rays, near, hits):
             chosen = lights.chance(np.full(met.size, lamp.index), rays, lanes_met)
             light_pdf = np.broadcast_to(pdf, t.shape).take(met) * chosen
             L *= power_heuristic(rays.pdf.take(lanes_met), light_pdf)
-        yield lanes_met, t.take(met), L
+        yield lanes_met, t.take(met), L, lamp.index
 
 
 def _of(lanes, column):

@@ -2,15 +2,23 @@
 
 import numpy as np
 
+BACKGROUND = -1
+"""The place in `world.lights` of a world that is the same everywhere: it is not among them."""
+
 
 class Film:
     """The pixels (P,) of one tile, summed in float64 and in the order of samples, so batches do not change a bit.
 
-    A batch of paths opens it with `open`, adds to it by slots, and closes it with `close`.
+    A batch of paths opens it with `open`, adds to it by slots, and closes it with `close`. Between, there are
+
+    radiance  (3, slots) float32, of each path
+    clear     (1, slots) float32: the share of each path for which nothing is there
+    recorded  {pass: (C, slots) float32} of those that record something along the way, see `interfaces.Pass`
     """
 
     def __init__(self, pixels, passes):
         self.passes = passes
+        self._parts = tuple(p for p in passes if p.records == "light")
         self.sums = {p.key: np.zeros((len(p.channels), pixels)) for p in passes}
         self.samples = np.zeros(pixels, np.int64)
         self.bad_samples = 0
@@ -25,15 +33,20 @@ class Film:
         self._count = samples
         slots = samples * (window.stop - window.start)
         self.radiance = np.zeros((3, slots), np.float32)
-        self.first_hits = {}
-        for p in self.passes:
-            if p.at_first_hit:
-                self.first_hits[p.key] = np.full((len(p.channels), slots), p.background, np.float32)
+        self.clear = np.zeros((1, slots), np.float32)
+        self.recorded = {p.key: np.full((len(p.channels), slots), p.background, np.float32) for p in self.passes if p.records}
 
-    def add(self, slot, L):
-        """Add radiance L (3, M) to the paths `slot` (M,), each at most once."""
+    def add(self, plan, rays, lanes, L, light, bounces):
+        """Add radiance L (3, M) to the paths that `rays` of the indices `lanes` (M,) belong to, each at most once.
+
+        light    the lights that it comes from, (M,) or a number: places in `world.lights`; BACKGROUND, or None: the only one
+        bounces  how many surfaces have sent it on
+        """
+        slot = rays.slot.take(lanes)
         for row, value in zip(self.radiance, L):
             row[slot] += value
+        for p in self._parts:
+            self.recorded[p.key][:, slot] += p.part(plan, rays, lanes, L, light, bounces)
 
     def close(self, is_first):
         """Gather the batch into the pixels; `is_first` says that it begins with sample 0."""
@@ -44,8 +57,10 @@ class Film:
             bad = ~np.isfinite(self.radiance).all(axis=0)
             self.bad_samples += np.count_nonzero(bad)
             self.radiance[:, bad] = 0
+            for p in self._parts:
+                self.recorded[p.key][:, bad] = 0
         for p in self.passes:
-            values = p.gather(self.radiance, self.first_hits.get(p.key))
+            values = self.recorded[p.key] if p.records else p.gather(self)
             samples = values.reshape(len(values), self._count, -1)
             total = self.sums[p.key][:, self._window]
             if p.reduction == "first":
@@ -62,5 +77,14 @@ class Film:
         return {p.key: self.sums[p.key] / (count if p.reduction == "mean" else 1) for p in self.passes}
 
     def result(self):
-        """`pixels` in float32."""
-        return {key: values.astype(np.float32) for key, values in self.pixels().items()}
+        """`pixels` as they are shown, see `shown`."""
+        return shown(self.passes, self.pixels())
+
+
+def shown(passes, values):
+    """{pass: (C, P) float32} of values {pass: (C, P) float64}: those that are a share of another are divided by it, 0 where that is 0."""
+    result = {}
+    for p in passes:
+        whole = values[p.divided_by] if p.divided_by else 1
+        result[p.key] = np.divide(values[p.key], whole, out=np.zeros_like(values[p.key]), where=whole != 0).astype(np.float32)
+    return result

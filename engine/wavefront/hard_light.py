@@ -11,22 +11,24 @@ MOST_LIGHTS = 64
 
 def add_hard_light(plan, rays, surface, reflection, film):
     """Light from the middle of every light, reflected by the rough lobes."""
-    for wi, distance, E in _middles(plan, rays, surface):
+    for light, wi, distance, E in _middles(plan, rays, surface):
         cos = reflection.cosine(surface, wi)
         f, _ = reflection.eval(surface.ns, surface.wo, wi)
         L = rays.beta * f
         L *= E * cos
-        arriving(plan, rays, surface, wi, distance, cos, L, film)
+        arriving(plan, rays, surface, reflection, wi, distance, cos, L, light, film)
 
 
 def add_illumination(plan, rays, surface, reflection, film):
     """Light from the middle of every light by the lecture's illumination model, see `integrators.whitted_phong`."""
     ambient = plan.world.materials.ambient.take(surface.material, axis=1)
-    for wi, distance, E in _middles(plan, rays, surface):
+    every = np.arange(rays.slot.size)
+    for light, wi, distance, E in _middles(plan, rays, surface):
         I_L = E if plan.settings.light_falloff else E * _of_one_metre(distance, plan.world.frame.scale)
-        film.add(rays.slot, rays.beta * ambient * I_L)
+        lit = plan.split_light(plan, rays, surface, reflection, wi)
+        film.add(plan, lit, every, rays.beta * ambient * I_L, light, rays.depth + 1)
         L = rays.beta * reflection.illuminate(surface.ns, surface.wo, wi) * I_L
-        arriving(plan, rays, surface, wi, distance, reflection.cosine(surface, wi), L, film)
+        arriving(plan, rays, surface, reflection, wi, distance, reflection.cosine(surface, wi), L, light, film)
 
 
 def _of_one_metre(distance, scale):
@@ -36,14 +38,17 @@ def _of_one_metre(distance, scale):
 
 
 def _middles(plan, rays, surface):
-    """For each light: wi (3, N) towards its middle, distance (N,), and irradiance E (3, N) of a surface that faces it."""
+    """For each light: its place in `lights`, (N,) or a number, wi (3, N) towards its middle, distance (N,), and E (3, N).
+
+    E is the irradiance of a surface that faces it.
+    """
     lights = plan.world.lights
     if lights.count > MOST_LIGHTS:
         index, probability, u2 = lights.choice.choose(surface.o, plan.numbers.two(rays, Dimension.LIGHT), plan.lit_side(surface))
         wi, distance, E, _ = lights.sample_middle(index, surface.o, u2, rays.time)
-        yield wi, distance, E / probability
+        yield index, wi, distance, E / probability
         return
     u2 = np.empty((2, surface.o.shape[1]), np.float32) if lights.have_middles else plan.numbers.two(rays, Dimension.LIGHT)
     for index in range(lights.count):
         wi, distance, E, _ = lights.sample_middle(index, surface.o, u2, rays.time)
-        yield wi, distance, E
+        yield index, wi, distance, E

@@ -32,42 +32,18 @@ def past_of(rays, output, is_shadow):
     return ((rays.carried.scattered & _KINDS[output]) > 0)[None].astype(np.float32)
 
 
-def remember_lobes(plan, rays, surface, reflection):
-    """The stage that has rays know which numbers choose which lobe, until they leave."""
-    # Of one lobe there are none, whatever their number of columns.
-    shape = len(reflection.thresholds), rays.slot.size
-    rays.carried.thresholds = np.array(np.broadcast_to(reflection.thresholds, shape)) if shape[0] else np.zeros(shape, np.float32)
-    return reflection
-
-
-def leave_by(integrator):
+def leave_by_lobes(plan, rays, surface, reflection, scattered):
     """The stage that has scattered rays know by which lobe they have left."""
-
-    def leave(plan, rays, surface, scattered):
-        lobes, rough = plan.world.materials.lobes, plan.world.materials.rough_lobes
-        thresholds = scattered.carried.thresholds
-        del scattered.carried.thresholds
-        # What shadow rays could find as well has been sampled by rough lobes.
-        is_singular = np.isinf(scattered.pdf) if integrator.samples_lights else np.zeros(rays.slot.size, bool)
-        chosen = np.zeros(rays.slot.size, np.intp)
-        if len(lobes) > 1 and rough:
-            u1 = plan.choose_lobe(plan, rays)
-            if integrator.splits_specular and rough < len(lobes):
-                u1 = u1 * thresholds[rough - 1]
-            chosen = (u1 >= thresholds).sum(axis=0)
-        kinds = np.array([_KINDS["diffuse"] if lobe.bsdf.is_diffuse else _KINDS["glossy"] for lobe in lobes[:rough]], np.uint8)
-        singular = np.uint8(_KINDS["glossy"] | _KINDS["singular"])
-        kind = np.concatenate((kinds, np.full(len(lobes) - rough + 1, singular))).take(chosen)
-        kind = np.where(is_singular, singular, kind)
-        goes_back = (surface.n * scattered.d).sum(axis=0) > 0
-        bounces = scattered.carried.bounces.copy()
-        is_diffuse = (kind & _KINDS["diffuse"]) > 0
-        for row, counts in enumerate((goes_back & is_diffuse, goes_back & ~is_diffuse, ~goes_back)):
-            bounces[row] += counts
-        scattered.carried.bounces = bounces
-        scattered.carried.scattered = kind | np.where(goes_back, np.uint8(_KINDS["reflection"]), np.uint8(_KINDS["transmission"]))
-
-    return leave
+    chosen, rough = reflection.chosen_lobe(rays.slot.size, plan.choose_lobe(plan, rays)), len(reflection.rough)
+    kinds = [_KINDS["diffuse"] if lobe.bsdf.is_diffuse else _KINDS["glossy"] for lobe in reflection.rough]
+    kind = np.array([*kinds, _KINDS["glossy"] | _KINDS["singular"]], np.uint8).take(np.minimum(chosen, rough))
+    goes_back = (surface.n * scattered.d).sum(axis=0) > 0
+    bounces = scattered.carried.bounces.copy()
+    is_diffuse = (kind & _KINDS["diffuse"]) > 0
+    for row, counts in enumerate((goes_back & is_diffuse, goes_back & ~is_diffuse, ~goes_back)):
+        bounces[row] += counts
+    scattered.carried.bounces = bounces
+    scattered.carried.scattered = kind | np.where(goes_back, np.uint8(_KINDS["reflection"]), np.uint8(_KINDS["transmission"]))
 
 
 def count_passed(plan, rays, surface):

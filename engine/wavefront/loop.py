@@ -36,13 +36,13 @@ def _trace(plan, rays, film, is_cancelled):
         surface = plan.interact(plan, rays, hits)
         for adjust in plan.adjust_surface:
             surface = adjust(plan, rays, surface)
-        for p in plan.first_hits if rays.depth == 0 else ():
-            film.first_hits[p.key][:, rays.slot] = p.values(plan, rays, surface)
-        if not world.materials.lobes:
-            continue
         reflection = plan.reflect(surface)
         for adjust in plan.adjust_reflection:
             reflection = adjust(plan, rays, surface, reflection)
+        for p in plan.first_hits if rays.depth == 0 else ():
+            film.recorded[p.key][:, rays.slot] = p.values(plan, rays, surface, reflection)
+        if not world.materials.lobes:
+            continue
         for add_light in plan.on_surface:
             add_light(plan, rays, surface, reflection, film)
         if rays.depth < plan.last_depth:

@@ -134,7 +134,7 @@ def around(plan, rays, surface):
     return media.ior.take(row), media.spread.take(row)
 
 
-def change_media(plan, rays, surface, scattered):
+def change_media(plan, rays, surface, reflection, scattered):
     """The stage that counts the boundaries which scattered rays pass."""
     row = plan.world.media.behind.take(surface.prim)
     lanes = np.nonzero((row >= 0) & (dot(surface.n, scattered.d) < 0))[0]
@@ -167,8 +167,8 @@ def absorb(plan, rays, hits, film):
 
 def add_light_hits_in_media(plan, rays, hits, film):
     """`add_light_hits`, weakened on the way."""
-    for lanes, t, L in light_hits(plan, rays, hits):
-        film.add(rays.slot.take(lanes), L * transmitted(plan, rays.carried.inside.take(lanes, axis=1), t))
+    for lanes, t, L, light in light_hits(plan, rays, hits):
+        film.add(plan, rays, lanes, L * transmitted(plan, rays.carried.inside.take(lanes, axis=1), t), light, rays.depth)
 
 
 def absorb_beyond(plan, rays, hits, film):
@@ -178,9 +178,9 @@ def absorb_beyond(plan, rays, hits, film):
 
 def add_light_hits_in_media_beyond(plan, rays, hits, film):
     """`add_light_hits_in_media` beyond the surface that rays have passed last."""
-    for lanes, t, L in light_hits_beyond(plan, rays, hits):
+    for lanes, t, L, light in light_hits_beyond(plan, rays, hits):
         way = t - rays.carried.start.take(lanes)
-        film.add(rays.slot.take(lanes), L * transmitted(plan, rays.carried.inside.take(lanes, axis=1), way))
+        film.add(plan, rays, lanes, L * transmitted(plan, rays.carried.inside.take(lanes, axis=1), way), light, rays.depth)
 
 
 def left_by_media(plan, rays, t):

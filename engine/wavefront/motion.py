@@ -93,11 +93,11 @@ def add_moving_emission(plan, rays, hits, film):
     lanes = np.nonzero(hits.prim >= world.movers.first)[0]
     lamp = lamps.lamp.take(hits.prim.take(lanes) - world.movers.first)
     lanes, lamp = lanes[lamp >= 0], lamp[lamp >= 0]
+    index = world.lights.first_patch + world.emitters.still + lamp
     L = plan.shine(plan, rays, hits, lanes, lamps.radiance.take(lamp, axis=1) * rays.beta.take(lanes, axis=1))
     if rays.depth and lanes.size:
         k, t = lamps.at(lamp, rays.time.take(lanes)), hits.t.take(lanes)
         pdf = patches.pdf(k.area * np.abs(dot(k.normal, rays.d.take(lanes, axis=1))) / (t * t))
-        index = world.lights.first_patch + world.emitters.still + lamp
         pdf *= world.lights.chance(index, rays, lanes)
         L *= power_heuristic(rays.pdf.take(lanes), pdf)
-    film.add(rays.slot.take(lanes), L)
+    film.add(plan, rays, lanes, L, index, rays.depth)

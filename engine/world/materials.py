@@ -235,6 +235,21 @@ class Reflection:
             return self
         return replace(self, specular=()).with_lobes(self.rough, self.shares[: len(self.rough)])
 
+    def chosen_lobe(self, count, u1):
+        """Which lobe, rough ones first, `scatter` takes for the numbers u1 (count,): (count,) intp; None: there is but one."""
+        return np.zeros(count, np.intp) if u1 is None else (u1 >= self.thresholds).sum(axis=0)
+
+    def by_kind(self):
+        """The reflection by diffuse, by glossy, and by all other lobes, which transmit; the shares are still those of all."""
+        kinds = [[], [], []]
+        for lobe in self.rough:
+            kinds[0 if lobe.bsdf.is_diffuse else 2 if lobe.bsdf.transmits else 1].append(lobe)
+        return tuple(replace(self, rough=tuple(lobes), specular=()) for lobes in kinds)
+
+    def value(self, n, wo, wi):
+        """f [sr^-1], (3, N) or what broadcasts to it, of wi, by the rough lobes."""
+        return self._added("eval", n, wo, wi)
+
     def _added(self, term, n, wo, wi):
         return sum(getattr(lobe.bsdf, term)(lobe.k, n, wo, wi) for lobe in self.rough)
 

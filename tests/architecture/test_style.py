@@ -24,8 +24,8 @@ BY_PROTOCOL = {
     if isinstance(protocol, type) and protocol.__module__ == interfaces.__name__
     for method in vars(protocol)
     if not method.startswith("_")
-} | {"values", "middle"}
-"""Methods that `interfaces` documents once for all plug-ins; `values` and `middle` in the texts of `Pass` and `Light`."""
+} | {"values", "part", "gather", "middle"}
+"""Methods that `interfaces` documents once for all plug-ins; those added are in the texts of `Pass` and `Light`."""
 
 
 def files(*folders):

@@ -25,7 +25,9 @@ def test_a_pass_offers_the_interface(plugin):
     assert PASSES[plugin.key] is plugin
     assert plugin.channels in ("RGBA", "RGB", "X", "Z", "XYZ")
     assert plugin.reduction in ("mean", "first", "sum")
-    assert not plugin.at_first_hit or isinstance(plugin.background, float)
+    assert plugin.records in ("", "first hit", "light")
+    assert not plugin.records or isinstance(plugin.background, float)
+    assert not plugin.divided_by or plugin.divided_by in PASSES
     assert plugin.__doc__.strip()
 
 
@@ -46,7 +48,9 @@ def test_a_pass_of_an_empty_scene_is_its_background(plugin):
     values = passes_of(h.scene(world=0.25))[plugin.key]
     if plugin.reduction == "sum":
         assert (values == 4).all()
-    elif plugin.at_first_hit:
+    elif plugin.key == "Environment":
+        assert (values == 0.25).all()
+    elif plugin.records:
         assert (values == np.float32(plugin.background)).all()
     else:
         assert (values == np.array((0.25, 0.25, 0.25, 1.0), np.float32)).all()
@@ -97,7 +101,7 @@ def test_depth_is_measured_from_where_the_camera_is_at_the_time_of_the_sample():
 
 
 def test_depth_catches_a_distance_along_the_ray(monkeypatch):
-    def along_the_ray(plan, rays, surface):
+    def along_the_ray(plan, rays, surface, reflection):
         return np.sqrt((surface.p**2).sum(axis=0))[None] / np.float32(plan.world.frame.scale)
 
     monkeypatch.setattr(Depth, "values", staticmethod(along_the_ray))

@@ -72,7 +72,7 @@ def test_tiles_that_would_need_too_much_memory_are_cut(reference, monkeypatch):
     monkeypatch.setattr(adaptive, "_MOST_CELLS", 40**2)
     tiles = h.spy(monkeypatch, rendering, "_tile")
     assert h.same_bits(all_passes(h.replaced(SETTINGS, tile_size=0)), reference)
-    assert {max(call.args[0][2:]) for call in tiles} == {5, 4}
+    assert {max(call.args[1][2:]) for call in tiles} == {5, 4}
 
 
 @pytest.mark.parametrize("margin", [0, 1])

@@ -50,7 +50,7 @@ def turned_by_prism(lobe, incidence, scale=1.0, offset=(0.0, 0.0, 0.0), integrat
     plan = h.plan_of(scene, h.settings(width=1, height=1, samples=samples, max_depth=9, integrator=integrator, **settings))
     left = []
 
-    def catch(plan, rays, surface, scattered):
+    def catch(plan, rays, surface, reflection, scattered):
         if rays.depth == 1:
             left.append(scattered)
 
@@ -86,7 +86,7 @@ def test_a_slab_shifts_light_to_the_side(scale):
     camera = PerspectiveCamera.look_at((scale, 0.1 * scale, 2 * scale), (0, 0.1 * scale, scale), up=(0, 1, 0), fov=1e-6)
     plan = h.plan_of(h.scene([pane], camera=camera, world=1.0), h.settings(width=1, height=1, samples=1))
     left = []
-    catch = lambda plan, rays, surface, scattered: left.append((surface.p, scattered.d))  # noqa: E731
+    catch = lambda plan, rays, surface, reflection, scattered: left.append((surface.p, scattered.d))  # noqa: E731
     h.pixels_of_plan(dataclasses.replace(plan, on_leaving=(catch,)))
     # Render space is centred on the camera: how far the line beyond passes it is the shift.
     p, d = (a[:, 0].astype(np.float64) for a in left[1])
@@ -200,7 +200,7 @@ def test_a_clear_bubble_in_dispersive_glass_takes_light_apart():
     plan = h.plan_of(h.scene([bubble, glass], camera=camera, world=1.0), h.settings(samples=4))
     white = []
 
-    def catch(plan, rays, surface, scattered):
+    def catch(plan, rays, surface, reflection, scattered):
         if rays.depth == 0:
             white.append(scattered.carried.wavelength == 0)
 

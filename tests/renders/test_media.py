@@ -359,7 +359,7 @@ def test_a_thin_pane_is_two_boundaries():
             eye = h.replaced(camera, world_from_camera=h.affine(camera.world_from_camera[:3, :3], scale * camera.world_from_camera[:3, 3]))
             plan = h.plan_of(h.scene(small, camera=eye, world=1.0), h.settings(max_depth=10, samples=1))
             passed = []
-            count = lambda plan, rays, surface, scattered, passed=passed: passed.append(rays.slot)  # noqa: E731
+            count = lambda plan, rays, surface, reflection, scattered, passed=passed: passed.append(rays.slot)  # noqa: E731
             h.pixels_of_plan(dataclasses.replace(plan, on_leaving=(*plan.on_leaving, count)))
             assert np.bincount(np.concatenate(passed)).tolist() == [2 + len(more)] * 64
 

@@ -242,8 +242,8 @@ def test_the_lampshade_catches_shadow_rays_that_carry_the_outside(monkeypatch):
 def test_the_lamp_behind_catches_shadow_rays_to_where_it_was_seen_from_the_front(monkeypatch):
     """The mutant starts behind the sheet, but goes as far as from its front: it ends on the far side of the lamp."""
 
-    def too_far(plan, rays, surface, wi, distance):
-        shadow, o, _, _ = shadow_rays_on_either_side(plan, rays, surface, wi, distance)
+    def too_far(plan, rays, surface, reflection, wi, distance):
+        shadow, o, _, _ = shadow_rays_on_either_side(plan, rays, surface, reflection, wi, distance)
         return shadow, o, wi, distance
 
     monkeypatch.setattr("glanz.engine.plan.shadow_rays_on_either_side", too_far)

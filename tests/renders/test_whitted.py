@@ -115,8 +115,8 @@ def test_agreement_catches_a_cosine_squared(monkeypatch):
     middles = hard_light._middles
 
     def steeper(plan, rays, surface):
-        for wi, distance, E in middles(plan, rays, surface):
-            yield wi, distance, E * (surface.ns * wi).sum(axis=0)
+        for light, wi, distance, E in middles(plan, rays, surface):
+            yield light, wi, distance, E * (surface.ns * wi).sum(axis=0)
 
     monkeypatch.setattr(hard_light, "_middles", steeper)
     with pytest.raises(AssertionError):

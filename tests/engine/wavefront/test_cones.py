@@ -14,7 +14,7 @@ def test_rays_scattered_by_chance_are_here_and_there_ever_after():
     """A mirror keeps rays beside each other, but it brings none back that are not."""
     carried = Columns(width=np.zeros(3), spread=np.zeros(3), extent=np.ones(3), is_even=np.array([True, True, False]))
     scattered = SimpleNamespace(carried=carried, pdf=np.float32([np.inf, 3, np.inf]))
-    cones.leave_with_cones(None, None, None, scattered)
+    cones.leave_with_cones(None, None, None, None, scattered)
     assert carried.is_even.tolist() == [True, False, False]
     assert carried.width.tolist() == [1, 1, 1]
 
