@@ -223,7 +223,7 @@ def _render_tile(plan, place, work, samples):
         film.bad_samples = 0
     if samples[1] < end:
         work.tiles[place] = tile
-        return _tile(place, tile.result(), is_final=False)
+        return _tile(plan, place, tile.result(), is_final=False)
     work.finish(place, 1)
     return _tile(plan, place, tile.result(), is_final=True)
 
