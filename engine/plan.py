@@ -75,6 +75,7 @@ class Plan:
     split_light        the rays (plan, rays, surface, reflection, wi) with what passes ask of light that they reflect
     unblocked          the shadow rays (plan, rays, o, d, limit, candidate) that arrive
     left               the share of light (plan, rays, t) that is left after a way t
+    around             index of refraction and its spread of what is around the bodies (plan, rays, surface) that rays met
     seen_from_camera   points (plan, rays, p) of render space as `camera` and `camera_k` describe them
     on_rays            stages (plan, rays, hits, film) for every batch: light met along the way
     on_rays_beyond     the same beyond a surface that rays have passed, see `wavefront.passing`
@@ -117,6 +118,7 @@ class Plan:
     split_light: object
     unblocked: object
     left: object
+    around: object
     seen_from_camera: object
     on_rays: tuple
     on_rays_beyond: tuple
@@ -170,10 +172,11 @@ class Plan:
             *((add_emission,) if needs.EMISSIVE_MESHES in requirements and world.emitters.still else ()),
             *((add_moving_emission,) if needs.EMISSIVE_MESHES in requirements and world.emitters.moving else ()),
         )
+        around = media.around if is_nested else media.vacuum
         adjust_reflection = (media.relative_indices,) if is_nested else ()
         if disperses:
             places = dispersion.one_wavelength if has_wavelength else dispersion.three_wavelengths
-            adjust_reflection = (dispersion.indices(media.around if is_nested else dispersion.vacuum, places),)
+            adjust_reflection = (dispersion.indices(places),)
         can_sample = integrator.samples_lights and world.materials.rough_lobes and not world.lights.is_empty
         minds_side = bool(can_sample and world.lights.choice.minds_side and world.materials.kind is not TwoSided)
         is_clipped = needs.CLIP_RANGE in requirements
@@ -228,6 +231,7 @@ class Plan:
             split_light=split_light if splits else unsplit,
             unblocked=unblocked_through if tints else media.absorbed(unblocked) if absorbs else unblocked,
             left=media.left_by_media if absorbs else all_of_it,
+            around=around,
             seen_from_camera=seen_from_camera if follows else seen_from(place) if place.any() else seen_at_rest,
             on_rays=on_rays,
             on_rays_beyond=tuple(_BEYOND.get(stage, stage) for stage in on_rays),

@@ -8,15 +8,13 @@ from ...engine import (
     GgxAlbedo,
     Lambert,
     LambertTransmission,
-    LobeExponent,
     RelativeIndex,
-    RoughRefraction,
     Transparent,
     albedo_of,
     textures_of,
 )
 from .colours import WHITE, added, as_texture, cut, inverted, times, varies
-from .principled import boundary, is_smooth, reflected
+from .principled import boundary, is_smooth, reflected, refracted
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,7 +106,7 @@ def glass(colour, ior, roughness=0.0, preserves=True):
 def refraction(colour, ior, roughness):
     """The same, which reflects nothing."""
     eta = RelativeIndex(ior)
-    return Closure((RoughRefraction(as_texture(colour), LobeExponent(roughness, eta), eta),))
+    return Closure((refracted(as_texture(colour), roughness, ior, eta),))
 
 
 def transparent(colour):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ...engine import Coordinates, LinearTexture, average_of, is_texture
+from ...engine import Coordinates, Gamma, LinearTexture, average_of, is_texture
 
 WHITE, BLACK = (1.0, 1.0, 1.0), (0.0, 0.0, 0.0)
 
@@ -60,8 +60,10 @@ def cut(value):
 
 
 def root(value):
-    """The square root of a colour; of what varies, of its average."""
-    return _constant(np.sqrt(np.maximum(np.broadcast_to(typical(value), 3), 0)))
+    """The square root of a colour."""
+    if varies(value):
+        return Gamma(cut(value), 0.5)
+    return _constant(np.sqrt(np.maximum(np.broadcast_to(value, 3), 0)))
 
 
 def inverted(value):

@@ -14,7 +14,7 @@ So no more leaves than arrives, whatever the angle. The lobes are `Gloss` and `R
 They know from where they are seen, but not from where they are lit, so they are not reciprocal.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -26,12 +26,13 @@ from ...engine import (
     Lambert,
     LayerWeight,
     LobeExponent,
+    Math,
     Mirror,
     RelativeIndex,
     RoughRefraction,
     folded,
 )
-from .colours import WHITE, added, as_texture, cut, inverted, root, times, varies
+from .colours import WHITE, added, as_texture, cut, inverted, root, times, typical, varies
 
 SMOOTHEST = 0.024
 """Blender's roughness below which a lobe would be sharper than the engine's sharpest, 0.1 degrees wide."""
@@ -41,18 +42,18 @@ _SHEEN_STRAIGHT, _SHEEN_RIM = 0.02, 0.6
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Layers:
-    """The inputs of a Principled BSDF; all but `ior`, `specular_level` and `coat_ior` may be textures."""
+    """The inputs of a Principled BSDF, which may be textures."""
 
     base: object = (0.8, 0.8, 0.8)
     metallic: object = 0.0
     roughness: object = 0.5
-    ior: float = 1.5
-    specular_level: float = 0.5
+    ior: object = 1.5
+    specular_level: object = 0.5
     tint: object = WHITE
     transmission: object = 0.0
     coat: object = 0.0
     coat_roughness: object = 0.03
-    coat_ior: float = 1.5
+    coat_ior: object = 1.5
     coat_tint: object = WHITE
     sheen: object = 0.0
     sheen_tint: object = WHITE
@@ -86,13 +87,11 @@ class Layers:
         left = times(left, inverted(t))
         if not _is_there(left):
             return
-        ior = effective_ior(self.ior, self.specular_level)
-        if ior > 1:
-            coat = GgxAlbedo(self.roughness, ior, tint=self.tint, kind="dielectric")
+        if _is_there(self.specular_level) and self.ior != 1:
+            coat = GgxAlbedo(self.roughness, self.ior, tint=self.tint, level=self.specular_level, kind="dielectric")
             yield reflected(times(left, coat), self.roughness)
             is_white = not varies(self.tint) and tuple(self.tint) == WHITE
-            rest = GgxAlbedo(self.roughness, ior, tint=self.tint, kind="dielectric", is_rest=True)
-            left = times(left, inverted(coat) if is_white else rest)
+            left = times(left, inverted(coat) if is_white else replace(coat, is_rest=True))
         yield Lambert(times(left, base))
 
 
@@ -107,7 +106,7 @@ def boundary(reflectance, transmittance, roughness, ior, weight=WHITE, preserves
     What is scattered several times is lost unless it `preserves` energy.
     """
     if is_smooth(roughness):
-        return (Dielectric(ior, times(weight, reflectance), times(weight, transmittance)),)
+        return (Dielectric(ior, times(weight, reflectance), times(weight, transmittance), etendue=etendue(ior)),)
     eta = RelativeIndex(ior)
     share = GgxAlbedo(roughness, eta, kind="boundary")
     is_white = not varies(transmittance) and np.all(np.equal(transmittance, 1))
@@ -115,20 +114,26 @@ def boundary(reflectance, transmittance, roughness, ior, weight=WHITE, preserves
         weight = times(weight, GlassTint(transmittance, roughness, eta, preserves))
     return (
         reflected(times(times(weight, reflectance), share), roughness),
-        RoughRefraction(times(times(weight, transmittance), inverted(share)), LobeExponent(roughness, eta), eta),
+        refracted(times(times(weight, transmittance), inverted(share)), roughness, ior, eta),
     )
+
+
+def refracted(colour, roughness, ior, eta):
+    """A lobe of `colour`, all that it lets pass, for Blender's `roughness`; eta is the `RelativeIndex` of `ior`."""
+    return RoughRefraction(colour, LobeExponent(roughness, eta), eta, etendue(ior))
+
+
+def etendue(ior):
+    """That of a boundary whose index `ior` may vary, while the medium behind it has the average everywhere."""
+    if not varies(ior):
+        return 1.0
+    ratio = Math(RelativeIndex(ior), RelativeIndex(typical(ior)), operation="divide")
+    return Math(ratio, ratio, operation="multiply")
 
 
 def is_smooth(roughness):
     """Whether Blender's `roughness` is that of a mirror."""
     return not varies(roughness) and roughness < SMOOTHEST
-
-
-def effective_ior(ior, specular_level):
-    """The index of refraction whose reflection at normal incidence is 2 * specular_level times that of `ior` (Blender 4.0 on)."""
-    f0 = ((ior - 1) / (ior + 1)) ** 2 * 2 * max(specular_level, 0.0)
-    amplitude = min(f0, 0.99) ** 0.5
-    return (1 + amplitude) / (1 - amplitude)
 
 
 def _is_there(value):

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+from ...engine import Clamp
 from . import closure
 from .closure import Closure
 from .colours import varies
@@ -73,7 +74,9 @@ def _preserves(node):
 
 
 def _ior(reader, node, identifier="IOR", default=1.5):
-    ior = reader.number(node, identifier, default)
+    ior = reader.value(node, identifier, default)
+    if varies(ior):
+        return Clamp(ior, *_IORS)
     allowed = min(max(ior, _IORS[0]), _IORS[1])
     if allowed != ior:
         reader.note("an IOR is beyond 0.001 to 1000 and is cut off")
@@ -140,17 +143,14 @@ def _principled(reader, node):
     for identifier, note in _LEFT_OUT.items():
         if reader.is_linked(node, identifier) or reader.number(node, identifier):
             reader.note(note)
-    base, transmission = reader.value(node, "Base Color"), reader.value(node, "Transmission Weight")
-    if varies(base) and (varies(transmission) or transmission > 0):
-        reader.note("what passes a Principled BSDF is tinted by the average of the texture of its Base Color")
     lobes, left = Layers(
-        base=base,
+        base=reader.value(node, "Base Color"),
         metallic=reader.value(node, "Metallic"),
         roughness=reader.value(node, "Roughness", 0.5),
         ior=_ior(reader, node),
-        specular_level=reader.number(node, "Specular IOR Level", 0.5),
+        specular_level=reader.value(node, "Specular IOR Level", 0.5),
         tint=reader.value(node, "Specular Tint", _WHITE),
-        transmission=transmission,
+        transmission=reader.value(node, "Transmission Weight"),
         coat=reader.value(node, "Coat Weight"),
         coat_roughness=reader.value(node, "Coat Roughness", 0.03),
         coat_ior=_ior(reader, node, "Coat IOR"),

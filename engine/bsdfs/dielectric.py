@@ -4,6 +4,10 @@ The share F of exact Fresnel reflection is reflected, the rest refracted by Snel
 with probability F. Radiance that is refracted is scaled by 1 / eta^2, since a pencil of rays widens as it leaves the
 denser medium (Veach 1997, section 5.2).
 
+Where the index varies over the surface, what is inside still has but one: by that radiance is scaled, whatever the boundary
+is like where light passes. Else it would win where it leaves through what is denser than where it came in: in even light a
+ball with indices of 1.2 and 2 in turn would look 54 % brighter than what surrounds it.
+
 Without Fresnel the shares are the lecture's constants: k_r is reflected and k_t refracted, and where light is totally
 reflected all of it is, k_r + k_t. One of the two is followed, with probability in proportion to the constants (their
 sums over the channels). Radiance is scaled all the same: a body looks as it does in the lecture, since what is lost on
@@ -18,7 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import SceneError
-from ..maths.fresnel import fresnel_dielectric, refract
+from ..maths.fresnel import check_etendue, fresnel_dielectric, refract
 from ..maths.spectrum import HIGHEST, LOWEST, place
 from ..maths.vectors import dot, reflect
 from . import registry
@@ -34,6 +38,8 @@ class Dielectric:
     reflectance    k_r, tint of what is reflected; 1 is physical
     transmittance  k_t, tint of what passes the surface, each time; 1 is physical
     is_fresnel     whether Fresnel's equations share the light; else k_r and k_t themselves are the shares
+    etendue        (eta / eta_m)^2 where the media on both sides have the relative index eta_m: radiance that passes is scaled by
+                   etendue / eta^2; 1 unless `ior` is a texture that varies
     abbe           Abbe number of what is behind the surface: small numbers spread colours, 64 is crown glass, 30 flint; inf: none do
     """
 
@@ -48,6 +54,7 @@ class Dielectric:
     transmittance: tuple = (1.0, 1.0, 1.0)
     is_fresnel: bool = True
     abbe: float = float("inf")
+    etendue: float = 1.0
 
     @property
     def spread(self):
@@ -65,6 +72,7 @@ class Dielectric:
             "transmittance": self.transmittance,
             "is_fresnel": bool(self.is_fresnel),
             "spread": self.spread,
+            "etendue": self.etendue,
         }
 
     def check(self, owner):
@@ -77,6 +85,7 @@ class Dielectric:
                 f"material '{owner}': an index of refraction of {self.ior} with the Abbe number {self.abbe} leaves 0.001 to 1000 "
                 f"between {LOWEST:g} and {HIGHEST:g} nm"
             )
+        check_etendue(owner, self.etendue)
         for name in ("reflectance", "transmittance"):
             if not all(0 <= c < float("inf") for c in getattr(self, name)):
                 raise SceneError(f"material '{owner}': {name} is {getattr(self, name)}, allowed: three finite numbers from 0 on")
@@ -93,7 +102,7 @@ class Dielectric:
             share, k_r, k_t = _with_constants(k, share)
         is_reflected = u1 < share
         wi = np.where(is_reflected, reflect(wo, n), refract(wo, n, eta))
-        return wi, np.where(is_reflected, k_r, k_t / (eta * eta))
+        return wi, np.where(is_reflected, k_r, k_t * (k.etendue / (eta * eta)))
 
     @staticmethod
     def branches(k, n, wo, is_front):
@@ -101,7 +110,7 @@ class Dielectric:
         share = fresnel_dielectric(dot(wo, n), eta)
         is_fresnel, is_total = k.is_fresnel > 0, share >= 1
         k_r = np.where(is_fresnel, share * k.reflectance, k.reflectance + is_total * k.transmittance)
-        k_t = np.where(is_fresnel, 1 - share, ~is_total) * k.transmittance / (eta * eta)
+        k_t = np.where(is_fresnel, 1 - share, ~is_total) * k.transmittance * (k.etendue / (eta * eta))
         reflected = (reflect(wo, n), k_r)
         if eta.ndim == 1:
             return reflected, (refract(wo, n, eta), k_t)

@@ -3,9 +3,9 @@
     f |cos| = k_t / eta^2 (p(wi) + p(wi')),    p(w) = (n + 1) / (2 pi) max(t . w, 0)^n
 
 about the refracted direction t of wo; wi' is wi mirrored at the surface: what would come back is folded to the far side. So
-exactly k_t passes, as power; radiance is scaled by 1 / eta^2 (Veach 1997, section 5.2; see Walter et al. 2007 for microfacets).
-Beyond the critical angle t lies along the surface. It is not reciprocal. k_t is meant to be a texture that knows how much
-passes towards wo, and eta one that knows the side.
+exactly k_t passes, as power; radiance is scaled by 1 / eta^2 (Veach 1997, section 5.2; see Walter et al. 2007 for microfacets),
+but see `Dielectric` for `etendue`. Beyond the critical angle t lies along the surface. It is not reciprocal. k_t is meant to be a
+texture that knows how much passes towards wo, and eta one that knows the side and the media, `RelativeIndex`.
 """
 
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import SceneError
-from ..maths.fresnel import refracted_cosine
+from ..maths.fresnel import check_etendue, refracted_cosine
 from ..maths.lobes import LARGEST_EXPONENT, check_exponent, sample_lobe, sample_lobe_pdf
 from ..maths.vectors import cosine_power, dot, reflect
 from . import registry
@@ -22,7 +22,7 @@ from . import registry
 @registry.add
 @dataclass(frozen=True)
 class RoughRefraction:
-    """f |cos| = k_t / eta^2 (n + 1) / (2 pi) cos^n of the angle to the refracted direction.
+    """f |cos| = k_t etendue / eta^2 (n + 1) / (2 pi) cos^n of the angle to the refracted direction.
 
     eta  index of refraction of what is on the far side of the viewer over that of what is on the viewer's, > 0
     """
@@ -38,13 +38,19 @@ class RoughRefraction:
     transmittance: tuple = (0.8, 0.8, 0.8)
     exponent: float = 32.0
     eta: float = 1.5
+    etendue: float = 1.0
+
+    @property
+    def ior(self):
+        """The index of refraction behind the front of the surface: eta, seen from there."""
+        return self.eta
 
     @classmethod
     def black(cls):
         return cls((0.0, 0.0, 0.0))
 
     def row(self):
-        return {"transmittance": self.transmittance, "exponent": self.exponent, "eta": self.eta}
+        return {"transmittance": self.transmittance, "exponent": self.exponent, "eta": self.eta, "etendue": self.etendue}
 
     @staticmethod
     def albedo(k):
@@ -54,12 +60,13 @@ class RoughRefraction:
         check_exponent(f"material '{owner}': Phong exponent", self.exponent)
         if not 1e-3 <= self.eta <= 1e3:
             raise SceneError(f"material '{owner}': relative index of refraction is {self.eta}, allowed: 0.001 to 1000")
+        check_etendue(owner, self.etendue)
 
     @staticmethod
     def eval(k, n, wo, wi):
         t, cos = _axis(k, n, wo), np.abs(dot(n, wi))
         folded = sample_lobe_pdf(t, wi, k.exponent) + sample_lobe_pdf(reflect(-t, n), wi, k.exponent)
-        return k.transmittance * (folded / (k.eta * k.eta * np.maximum(cos, np.finfo(cos.dtype).tiny)))
+        return k.transmittance * (folded * k.etendue / (k.eta * k.eta * np.maximum(cos, np.finfo(cos.dtype).tiny)))
 
     @staticmethod
     def illuminate(k, n, wo, wi):

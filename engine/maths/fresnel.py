@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..errors import SceneError
 from .vectors import dot
 
 
@@ -26,6 +27,18 @@ def fresnel_dielectric(cos_i, eta):
     share = 0.5 * (parallel * parallel + across * across)
     # Also 0 / 0, along the surface.
     return np.where(cos_t > 0, share, 1)
+
+
+def check_etendue(owner, etendue):
+    """Raises SceneError, naming the material `owner`, where radiance cannot be scaled by `etendue`."""
+    if not 0 < etendue < float("inf"):
+        raise SceneError(f"material '{owner}': etendue is {etendue}, allowed: a finite number above 0")
+
+
+def index_of_level(ior, level):
+    """The index (N,) that reflects 2 * `level` times what `ior` does at normal incidence, at most 0.99: Blender's Specular IOR Level."""
+    amplitude = np.sqrt(np.minimum(np.square((ior - 1) / (ior + 1)) * (2 * np.maximum(level, 0)), np.float32(0.99)))
+    return (1 + amplitude) / (1 - amplitude)
 
 
 def refract(wo, n, eta):

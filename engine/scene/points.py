@@ -27,6 +27,8 @@ class Points:
 
     count = 1
     across = None
+    around = np.float32(1)
+    """The index of refraction, or (N,), of what is around the bodies on whose surfaces the points are: here of the vacuum."""
     is_even = None
     """(N,) where what looks at the points looks at others beside them as well, see `wavefront.cones`; None: everywhere."""
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import SceneError
+from ..maths.fresnel import index_of_level
 from ..maths.ggx import fresnel_moment, mean_albedo, moment
 from ..maths.vectors import dot
 from . import registry
@@ -20,7 +21,7 @@ class GgxAlbedo:
     """The directional albedo of GGX's microfacets, (3, N), in [0, 1].
 
     roughness  Blender's, 0 to 1
-    kind       "dielectric": a coat of index `ior`, whose reflection goes from `f0` = its own times `tint` to 1;
+    kind       "dielectric": a coat of index `ior` at Blender's specular `level`, whose reflection goes from its own times `tint` to 1;
                "mirror": one that reflects the colour `f0` at all angles;
                "metal": Schlick's Fresnel from the colour `f0`, with the colour `tint` at 82 degrees (F82);
                "boundary": of all light at a boundary between `eta` = `ior` and 1, the share that does not pass
@@ -38,6 +39,7 @@ class GgxAlbedo:
     ior: object = 1.5
     f0: object = (1.0, 1.0, 1.0)
     tint: object = (1.0, 1.0, 1.0)
+    level: object = 0.5
     kind: str = "metal"
     preserves: bool = True
     is_rest: bool = False
@@ -65,7 +67,7 @@ class GgxAlbedo:
             single = f0 * whole + (1 - f0) * moment("P", cos, roughness) - b * moment("Q", cos, roughness)
             mean = f0 + (1 - f0) / 21 - b / 126
         else:
-            ior = np.clip(np.nan_to_num(at.value(self.ior)[0]), 1, 1e3)
+            ior = index_of_level(np.clip(np.nan_to_num(at.value(self.ior)[0]), 1e-3, 1e3), np.nan_to_num(at.value(self.level)[0]))
             own = np.square((ior - 1) / (ior + 1))
             f0 = np.clip(own * np.nan_to_num(at.value(self.tint)), 0, 1)
             # Its Fresnel, stretched to go from f0 to 1.

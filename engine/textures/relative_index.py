@@ -1,4 +1,4 @@
-"""The index of refraction of what is on the far side of a surface."""
+"""The index of refraction of what is on the far side of a surface, over that of what is on the near one."""
 
 from dataclasses import dataclass
 
@@ -10,7 +10,10 @@ from . import registry
 @registry.add
 @dataclass(frozen=True, eq=False)
 class RelativeIndex:
-    """`ior` seen from the front, and 1 / ior from within."""
+    """`ior` over the index of what is around the body, seen from the front; seen from within the inverse of that.
+
+    Around a body is the vacuum, or the medium of another one that it lies in, see `scene.medium`.
+    """
 
     key = "relative index"
     label = "Relative Index"
@@ -24,4 +27,4 @@ class RelativeIndex:
 
     def eval(self, at):
         ior = np.clip(np.nan_to_num(at.value(self.ior)[:1]), 1e-3, 1e3)
-        return np.where(at.surface.is_front, ior, 1 / ior).astype(np.float32)
+        return np.where(at.surface.is_front, ior / at.around, at.around / ior).astype(np.float32)

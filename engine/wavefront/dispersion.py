@@ -41,15 +41,14 @@ def three_wavelengths(plan, rays, is_dispersive):
     return _CHANNEL_PLACES
 
 
-def indices(surroundings, places):
+def indices(places):
     """The stage that gives boundaries their indices of refraction, over those of what is around their bodies.
 
-    `surroundings` (plan, rays, surface) says what that is: index (N,) and spread (N,), or 1 and 0 for the vacuum; `places`
-    where in the spectrum the rays are.
+    `places` says where in the spectrum the rays are.
     """
 
     def find_indices(plan, rays, surface, reflection):
-        ior, spread = surroundings(plan, rays, surface)
+        ior, spread = plan.around(plan, rays, surface)
         is_dispersive = np.broadcast_to(spread != 0, rays.slot.shape)
         for lobe in reflection.specular:
             if hasattr(lobe.k, "ior"):
@@ -59,8 +58,3 @@ def indices(surroundings, places):
         return reflection.with_indices(lambda k: (k.ior + k.spread * at) / around, rays.slot.size)
 
     return find_indices
-
-
-def vacuum(plan, rays, surface):
-    """Nothing is around any body: index 1 and spread 0."""
-    return np.float32(1), np.float32(0)

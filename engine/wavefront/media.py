@@ -134,6 +134,11 @@ def around(plan, rays, surface):
     return media.ior.take(row), media.spread.take(row)
 
 
+def vacuum(plan, rays, surface):
+    """`around` where bodies share no space: index 1 and spread 0."""
+    return np.float32(1), np.float32(0)
+
+
 def change_media(plan, rays, surface, reflection, scattered):
     """The stage that counts the boundaries which scattered rays pass."""
     row = plan.world.media.behind.take(surface.prim)

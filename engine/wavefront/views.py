@@ -82,6 +82,10 @@ class RayView:
         result[:, lanes] = movers.poses.at(owner, self._rays.time.take(lanes)).vectors(middle.local_vectors(a.take(lanes, axis=1)))
         return result
 
+    def around(self, surface):
+        """The index of refraction, 1 or (M,), of what is around the bodies whose `surface` the rays met."""
+        return self._plan.around(self._plan, self._rays, surface)[0]
+
     def path(self, output):
         """What `LightPath` says, float32 (1, 1) or (1, M)."""
         rays = self._rays

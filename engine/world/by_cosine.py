@@ -62,9 +62,13 @@ class ByCosine:
         return self.kind(lobes[: self.rough], lobes[self.rough :], thresholds_of(shares), shares)
 
 
-def tabulated(materials):
-    """The `ByCosine` of `Materials`, None where there is nothing to tabulate, and the materials without the textures of that."""
-    found = {row: table for row in materials.textured if _is_isotropic(materials, row) and (table := _table(materials, row))}
+def tabulated(materials, sharing=()):
+    """The `ByCosine` of `Materials`, None where there is nothing to tabulate, and the materials without the textures of that.
+
+    `sharing` are the rows of bodies that share space: what their boundaries do depends on the media that really meet there.
+    """
+    rows = [row for row in materials.textured if row not in sharing and _is_isotropic(materials, row)]
+    found = {row: table for row in rows if (table := _table(materials, row))}
     if not found:
         return None, materials
     constant, names = _stacked(materials.lobes, materials.shares, materials.emission.shape[1])

@@ -124,7 +124,9 @@ def compile_world(
     the geometry does not fit into memory.
     """
     materials, row = _number_materials(scene)
-    by_cosine, table = tabulated(Materials.of(materials, bsdfs, () if disperses else ("spread",)))
+    bodies = Bodies.of(scene.objects) if has_media else None
+    sharing = {row[m] for o, layer in zip(scene.objects, bodies.layer) if layer for m in o.materials} if has_media else ()
+    by_cosine, table = tabulated(Materials.of(materials, bsdfs, () if disperses else ("spread",)), sharing)
     still = place([(i, o) for i, o in enumerate(scene.objects) if o.is_still or not motion_steps], row, smooth)
     changing = [(i, o) for i, o in enumerate(scene.objects) if motion_steps and o.mesh.triangles.size and not o.is_still]
     moving = [Moving.of(i, o, row, smooth, motion_steps) for i, o in changing]
@@ -132,7 +134,6 @@ def compile_world(
     frame, vertices, indices, radius = _merge(still, moving, before.frame.origin if before else scene.camera.position)
     material = _concatenate([part.material for part in parts], 0).astype(np.intp)
     owner = _concatenate([part.owner for part in parts], 0).astype(np.intp)
-    bodies = Bodies.of(scene.objects) if has_media else None
     if has_media:
         away = np.zeros(len(scene.objects))
         away[[i for i, _ in changing]] = [frame.scale * m.away(frame.origin) for m in moving]

@@ -88,4 +88,4 @@ class Bodies:
 def _index(materials):
     """Index of refraction and spread of what is inside: those of the first surface that has them."""
     seen = (lobe for m in materials for lobe in map(averaged, m.lobes) if hasattr(lobe, "ior") and any(albedo_of(lobe)))
-    return next(((lobe.ior, lobe.spread) for lobe in seen), (1, 0))
+    return next(((lobe.ior, getattr(lobe, "spread", 0)) for lobe in seen), (1, 0))

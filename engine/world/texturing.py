@@ -103,6 +103,11 @@ class TexturePoints(Points):
         return self.camera.window(self.surface.p)
 
     @property
+    def around(self):
+        """The index of refraction, 1 or (N,), of what is around the bodies on whose surfaces the points are."""
+        return self.once("around", lambda: self._view.around(self.surface))
+
+    @property
     def pixel_width(self):
         """How wide (N,) a pixel is where the points are, render space."""
         return self._view.pixel(self.prim)

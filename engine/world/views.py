@@ -90,6 +90,10 @@ class LampView:
         """Vectors a (3, N) of objects, as they are placed at the middle of the shutter."""
         return a
 
+    def around(self, surface):
+        """The index of refraction of what is around glowing bodies: media count where paths meet them."""
+        return np.float32(1)
+
     def path(self, output):
         """What `LightPath` says, (1, 1) or (1, N)."""
         if output == "length":

@@ -1,13 +1,15 @@
 """The layers of the Principled BSDF keep energy at every angle, and meet the limits that have names."""
 
+import dataclasses
 import itertools
 
 import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from glanz.addon.export.principled import Layers, effective_ior
-from glanz.engine import Dielectric, GgxAlbedo, Gloss, Lambert, Mirror
+from glanz.addon.export.principled import Layers
+from glanz.engine import Dielectric, GgxAlbedo, Gloss, Lambert, Mirror, Mix
+from glanz.engine.maths.fresnel import index_of_level
 from glanz.engine.scene.points import OnPlane
 from glanz.tests.chance import law
 
@@ -85,7 +87,26 @@ def test_a_smooth_one_is_a_mirror_and_smooth_glass_is_exact():
 
 
 def test_specular_level_scales_the_reflection_at_normal_incidence():
-    assert effective_ior(1.5, 0.5) == pytest.approx(1.5)
     f0 = lambda ior: ((ior - 1) / (ior + 1)) ** 2  # noqa: E731
-    assert f0(effective_ior(1.5, 1.0)) == pytest.approx(0.08)
-    assert effective_ior(1.5, 0.0) == 1
+    cases = (1.5, 0.5, 0.04), (1.5, 1.0, 0.08), (1.5, 0.0, 0), (1 / 1.5, 0.5, 0.04), (40.0, 1.0, 0.99), (1.5, -1.0, 0)
+    for ior, level, expected in cases:
+        assert f0(index_of_level(np.float32(ior), np.float32(level))) == pytest.approx(expected, rel=1e-5)
+
+
+VARIED = {"ior": (1.1, 2.5), "specular_level": (0.2, 1.0), "coat_ior": (1.1, 2.5), "base": ((0.9, 0.5, 0.2), (0.2, 0.5, 0.9))}
+
+
+@pytest.mark.parametrize("name", VARIED)
+@pytest.mark.parametrize("roughness", [0.0, 0.5])
+@pytest.mark.parametrize("transmission", [0.0, 1.0])
+def test_what_varies_is_at_each_point_what_it_is_there(name, roughness, transmission):
+    """Every parameter of every lobe, where a texture has a value, is what it is for that value."""
+    others = {"roughness": roughness, "transmission": transmission, "coat": 1.0}
+    lobes, _ = Layers(**{name: Mix(0.0, *VARIED[name])}, **others).lobes()
+    plain, _ = Layers(**{name: VARIED[name][0]}, **others).lobes()
+    assert [type(lobe) for lobe in lobes] == [type(lobe) for lobe in plain]
+    for lobe, truth in zip(lobes, plain):
+        at = OnPlane(np.zeros((3, POINTS), np.float32))
+        for field in dataclasses.fields(lobe):
+            found, expected = np.broadcast_arrays(*(at.value(getattr(value, field.name)) for value in (lobe, truth)))
+            assert found == pytest.approx(expected, rel=1e-5, abs=1e-6), field.name

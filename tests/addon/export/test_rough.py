@@ -4,8 +4,10 @@ import bpy
 import numpy as np
 import pytest
 
-from glanz.engine import GgxAlbedo, Gloss, Mirror, RoughRefraction, is_texture
+from glanz.addon.export import principled
+from glanz.engine import CheckerTexture, Coordinates, GgxAlbedo, Gloss, Mirror, OrthographicCamera, RoughRefraction, is_texture
 from glanz.engine.scene.points import Probes
+from glanz.tests import helpers as h
 from glanz.tests.addon import blender
 
 
@@ -76,3 +78,25 @@ def test_sheen_is_a_diffuse_rim_and_says_so():
     (lobe,) = scene.objects[0].materials[0].lobes
     cos = -Probes().d[2]
     assert Probes().value(lobe.reflectance) == pytest.approx(np.outer((1, 0.5, 0), 0.02 + 0.6 * (1 - cos) ** 2), abs=1e-5)
+
+
+def even_light(roughness):
+    """Whether a ball of clear glass with an index of 1.2 and of 2 in turn looks as bright as a white world; detects 3 %."""
+    octants = CheckerTexture((1.2,) * 3, (2.0,) * 3, Coordinates(source="object"))
+    white = (1.0, 1.0, 1.0)
+    ball = h.thing(h.icosphere(3), h.Material(name="glass", lobes=principled.boundary(white, white, roughness, octants)))
+    camera = OrthographicCamera(world_from_camera=h.affine(translation=(0, 0, 5)), window=(-0.7, 0.7, -0.7, 0.7))
+    image = h.pixels(h.scene([ball], camera=camera, world=1.0), h.settings(width=16, height=16, samples=32, max_depth=200))[1]
+    return h.mean_is(image, 1.0, floor=2e-3)
+
+
+@pytest.mark.parametrize("roughness", [0.0, 0.25])
+def test_glass_whose_index_varies_keeps_its_light(roughness):
+    """Light comes in where the index is high and leaves where it is low, and the other way round."""
+    assert even_light(roughness)
+
+
+@pytest.mark.parametrize("roughness", [0.0, 0.25])
+def test_even_light_catches_radiance_that_is_scaled_by_the_index_of_the_place(roughness, monkeypatch):
+    monkeypatch.setattr(principled, "etendue", lambda ior: 1.0)
+    assert not even_light(roughness)

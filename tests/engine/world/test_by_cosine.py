@@ -166,7 +166,7 @@ def test_a_picture_by_tables_is_that_by_textures(monkeypatch):
     settings = h.settings(width=24, height=16, samples=4, max_depth=3)
     found = h.pixels(scene, settings)
     assert h.plan_of(scene, settings).world.by_cosine
-    monkeypatch.setattr(compile, "tabulated", lambda materials: (None, materials))
+    monkeypatch.setattr(compile, "tabulated", lambda materials, sharing: (None, materials))
     assert h.plan_of(scene, settings).world.by_cosine is None
     wanted = h.pixels(scene, settings)
     assert np.mean(np.abs(found - wanted) <= 1e-4 * wanted.max()) >= 0.98
