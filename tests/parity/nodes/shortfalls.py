@@ -1,10 +1,11 @@
 """What must agree with Cycles, and what does not, and why."""
 
 _POLES = "where it divides by next to nothing: both engines look at places that are up to a hundredth of a pixel apart"
+_ROUNDED = "; and, from Blender 5.0 on, Cycles rounds the remainders of vectors a million times as long as what they are divided by"
 
 NODES = {
     "ShaderNodeMath": (_POLES, lambda case: case.properties.get("operation") in ("DIVIDE", "SNAP")),
-    "ShaderNodeVectorMath": (_POLES, lambda case: case.properties.get("operation") in ("DIVIDE", "SNAP", "MODULO", "WRAP")),
+    "ShaderNodeVectorMath": (_POLES + _ROUNDED, lambda case: case.properties.get("operation") in ("DIVIDE", "SNAP", "MODULO", "WRAP")),
     "ShaderNodeMapRange": (_POLES, lambda case: case.properties.get("interpolation_type") in ("LINEAR", "STEPPED")),
 }
 """{node type: (reason, condition (case) or None for all cases)}."""

@@ -7,11 +7,12 @@ import bpy
 import numpy as np
 import pytest
 
+from glanz.addon.export import images
 from glanz.tests import helpers as h
 from glanz.tests.addon import blender
 from glanz.tests.parity.nodes import grid
 
-BAR, ROUGHLY = 0.98, 0.9
+BAR = 0.98
 IS_NEW = bpy.app.version >= (5, 2)
 """Cycles reads images anew."""
 KIND = "ShaderNodeTexImage"
@@ -107,8 +108,15 @@ GROUPS = {
     "colour spaces": [case({"space": space}, interpolation=i) for space in ("sRGB", *SPACES) for i in ("Linear", "Closest")],
     "files": [
         case({"file_format": f, "depth": d, **alpha, "space": space}, interpolation="Closest")
-        for f, d, space in (("PNG", "8", "sRGB"), ("PNG", "16", "sRGB"), ("PNG", "16", "Non-Color"), ("TIFF", "16", "sRGB"),
-                            ("OPEN_EXR", "32", "Linear Rec.709"), ("OPEN_EXR", "16", "ACEScg"), ("JPEG", "8", "sRGB"))
+        for f, d, space in (
+            ("PNG", "8", "sRGB"),
+            ("PNG", "16", "sRGB"),
+            ("PNG", "16", "Non-Color"),
+            ("TIFF", "16", "sRGB"),
+            ("OPEN_EXR", "32", "Linear Rec.709"),
+            ("OPEN_EXR", "16", "ACEScg"),
+            ("JPEG", "8", "sRGB"),
+        )
         for alpha in ((ALPHA, {}) if f != "JPEG" else ({},))
     ],
     "alpha of files": [
@@ -123,12 +131,14 @@ GROUPS = {
 }
 
 
-def bar(case):
-    """What falls short, and why.
+def halved(pixels):
+    """`pixels` with colours cut off to half precision, as Cycles has them before Blender 5.2.
 
-    Before Blender 5.2 the inverses of view transforms are 93 % (Filmic) and 97 % (AgX).
+    The inverses of view transforms make 1.5 % of that, so that without it 93 % (Filmic) and 97 % (AgX) of all pixels agree.
     """
-    return ROUGHLY if dict(case.image).get("space") in ("Filmic sRGB", "AgX Base sRGB") and not IS_NEW else BAR
+    result = np.array(pixels, np.float32)
+    result[..., :3] = (result[..., :3].copy().view(np.uint32) & np.uint32(0xFFFFE000)).view(np.float32)
+    return result
 
 
 def is_compared(case):
@@ -140,9 +150,12 @@ def is_compared(case):
 
 
 @pytest.mark.parametrize("group", GROUPS)
-def test_an_image_is_that_of_cycles(group, tmp_path):
+def test_an_image_is_that_of_cycles(group, tmp_path, monkeypatch):
+    if not IS_NEW:
+        exact = images.scene_linear
+        monkeypatch.setattr(images, "scene_linear", lambda pixels, space: halved(exact(halved(pixels), space)))
     found = grid.shares([c for c in GROUPS[group] if is_compared(c)], tmp_path, build=built(tmp_path))
-    low = [(replace(c, kind=""), round(share, 3)) for c, share in found.items() if share < bar(c)]
+    low = [(replace(c, kind=""), round(share, 3)) for c, share in found.items() if share < BAR]
     assert not low, "\n".join(f"{share} {c}" for c, share in low)
 
 
