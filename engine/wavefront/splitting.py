@@ -52,7 +52,7 @@ def colour(reflection, surface, kind):
             is_behind = dot(surface.n, wi) < 0
             if kind == TRANSMITTED and hasattr(lobe.k, "ior"):
                 # Radiance grows where light is bent together; the light does not.
-                weight = weight * np.where(surface.is_front, lobe.k.ior, 1 / lobe.k.ior) ** 2
+                weight = weight * np.square(np.where(surface.is_front, lobe.k.ior, 1 / lobe.k.ior)) / lobe.k.etendue
             share += weight * (is_behind == (kind == TRANSMITTED))
     return share
 
