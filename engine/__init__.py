@@ -11,6 +11,7 @@ from .bsdfs.gloss import Gloss
 from .bsdfs.lambert import Lambert
 from .bsdfs.lambert_transmission import LambertTransmission
 from .bsdfs.mirror import Mirror
+from .bsdfs.oren_nayar import OrenNayar
 from .bsdfs.phong import Phong
 from .bsdfs.phong_lecture import PhongLecture
 from .bsdfs.phong_transmission import PhongTransmission
@@ -78,6 +79,7 @@ from .textures.object_value import ObjectValue
 from .textures.radial_tiling import RadialTiling
 from .textures.relative_index import RelativeIndex
 from .textures.separate import Separate
+from .textures.sheen_albedo import SheenAlbedo
 from .textures.sky import SkyTexture
 from .textures.tangent import Tangent
 from .textures.vector_arithmetic import VectorMath
@@ -155,6 +157,7 @@ __all__ = [
     "NormalMap",
     "Object",
     "ObjectValue",
+    "OrenNayar",
     "OrthographicCamera",
     "PanoramaCamera",
     "PerspectiveCamera",
@@ -171,6 +174,7 @@ __all__ = [
     "SceneError",
     "Separate",
     "Settings",
+    "SheenAlbedo",
     "SkyTexture",
     "SpotLight",
     "SunLight",

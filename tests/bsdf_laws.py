@@ -30,10 +30,14 @@ def side(value):
 
 
 class About:
-    """Directions by q = 1 - cos of the angle to `axis` (3, 1), and azimuth phi."""
+    """Directions by q = 1 - cos of the angle to `axis` (3, 1), and azimuth phi, counted from `start` (3, 1) or anywhere."""
 
-    def __init__(self, axis):
+    def __init__(self, axis, start=None):
         self.axis, self.frame = axis, h.frame_towards(axis[:, 0])
+        if start is not None and np.linalg.norm(start - axis) > 1e-6:
+            y = np.cross(axis[:, 0], start[:, 0])
+            y /= np.linalg.norm(y)
+            self.frame = np.stack((np.cross(y, axis[:, 0]), y, axis[:, 0]), axis=1)
 
     def at(self, q, phi):
         """Unit vectors (3, ...), and solid angle per dq dphi."""
@@ -85,7 +89,7 @@ LADDER = np.unique(np.concatenate(([0.0, 2.0], 2.0 ** -np.arange(0, 44), 1 - 2.0
 
 def smooth_coordinates(value, k, wo):
     """Coordinates by how well they suit the pdf, best first: (error of its integral, which is 1, coordinates)."""
-    candidates = [About(NORMAL), About(reflect(wo, NORMAL)), About(-wo), HalfWay(NORMAL, wo)]
+    candidates = [About(NORMAL, wo), About(reflect(wo, NORMAL)), About(-wo), HalfWay(NORMAL, wo)]
     integrals = [quadrature(lambda w: value.pdf(k, NORMAL, wo, w), c, LADDER, 4).sum() for c in candidates]
     return sorted(zip(np.abs(np.array(integrals) - 1), candidates), key=lambda pair: pair[0])
 

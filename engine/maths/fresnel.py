@@ -41,6 +41,25 @@ def index_of_level(ior, level):
     return (1 + amplitude) / (1 - amplitude)
 
 
+def fresnel_conductor(cos_i, eta, k):
+    """The share (3, N) of unpolarised light that a smooth conductor of the index eta + i k (3, N) reflects at cos_i (N,).
+
+    Born & Wolf, 14.2: with a^2 + b^2 = |eta_c^2 - sin^2| and a = Re sqrt(eta_c^2 - sin^2), eta_c the complex index,
+
+        R_across   = (a^2 + b^2 - 2 a cos + cos^2) / (a^2 + b^2 + 2 a cos + cos^2)
+        R_parallel = R_across ((a^2 + b^2) cos^2 - 2 a cos sin^2 + sin^4) / ((a^2 + b^2) cos^2 + 2 a cos sin^2 + sin^4)
+    """
+    cos2 = cos_i * cos_i
+    sin2 = 1 - cos2
+    real, half = eta * eta - k * k - sin2, eta * k
+    whole = np.sqrt(real * real + 4 * half * half)
+    a = np.sqrt(np.maximum(0.5 * (whole + real), 0))
+    step = 2 * a * cos_i
+    across = (whole - step + cos2) / (whole + step + cos2)
+    parallel = across * (whole * cos2 - step * sin2 + sin2 * sin2) / (whole * cos2 + step * sin2 + sin2 * sin2)
+    return 0.5 * (across + parallel)
+
+
 def refract(wo, n, eta):
     """The refracted direction (3, N) of wo about n, wo on the side of n; meaningless where `refracted_cosine` is 0.
 

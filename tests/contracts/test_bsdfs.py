@@ -14,6 +14,7 @@ from glanz.engine import (
     Gloss,
     Lambert,
     LambertTransmission,
+    OrenNayar,
     Phong,
     PhongLecture,
     PhongTransmission,
@@ -45,11 +46,13 @@ EXAMPLES = {
     **{bsdf.key: [bsdf((0.5, 0.25, 0.125), n) for n in EXPONENTS] for bsdf in (Phong, PhongLecture, BlinnPhong, PhongTransmission)},
     # Lobes whose axis is turned end where this quadrature does not look; `test_gloss` goes there.
     "gloss": [Gloss((0.5, 0.25, 0.125), n) for n in (0.0, 1.0, 10.0, 1000.0)],
+    # With a colour of 1 as much leaves as arrives, to less than this quadrature says; `test_oren_nayar` goes there.
+    "oren_nayar": [OrenNayar((1.0, 0.5, 0.25), 1.0, (0.8, 0.5, 0.25))],
     "rough_refraction": [RoughRefraction(), *(RoughRefraction((0.5, 0.25, 0.125), n, 1.0) for n in (0.0, 10.0))],
 }
 ALL = [value for key, plugin in BSDFS.items() if not plugin.is_specular for value in EXAMPLES.get(key, [plugin()])]
 
-each = pytest.mark.parametrize("value", ALL, ids=lambda v: f"{v.key}-{getattr(v, 'exponent', '')}")
+each = pytest.mark.parametrize("value", ALL, ids=lambda v: f"{v.key}-{getattr(v, 'exponent', getattr(v, 'roughness', ''))}")
 
 
 @each

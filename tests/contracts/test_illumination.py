@@ -39,7 +39,7 @@ def test_a_term_of_the_illumination_model_is_the_reflectance_at_its_brightest(pl
     """k_d for light along the normal, k_s for light from where the highlight is; nowhere more, and never negative."""
     value = plugin(reflectance=(0.6, 0.4, 0.2))
     k, wo = h.table(value.row()), h.unit(0.1, -0.3, 0.9)
-    brightest = NORMAL if plugin.key == "lambert" else reflect(wo, NORMAL)
+    brightest = NORMAL if plugin.is_diffuse else reflect(wo, NORMAL)
     np.testing.assert_allclose(value.illuminate(k, NORMAL, wo, brightest)[:, 0], (0.6, 0.4, 0.2), rtol=1e-9)
     wi = h.directions(1, 5000)
     wi *= np.sign(dot(NORMAL, wi))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import integrate
 
-from glanz.engine.maths.fresnel import fresnel_dielectric, refract, refracted_cosine
+from glanz.engine.maths.fresnel import fresnel_conductor, fresnel_dielectric, refract, refracted_cosine
 from glanz.tests import helpers as h
 
 Z = np.array([[0.0], [0.0], [1.0]])
@@ -33,6 +33,37 @@ def test_snell(degrees, refracted):
 def test_fresnel(degrees, eta, expected):
     """D2."""
     assert share(degrees, eta) == pytest.approx(expected, abs=1e-9)
+
+
+COPPER = np.array([[0.2004], [0.9240], [1.1022]]), np.array([[3.9129], [2.4528], [2.1422]])
+"""eta and k, as tables have them for red, green and blue."""
+
+
+def complex_share(cos, index):
+    """What is reflected at a boundary of a complex index, by the amplitudes of both polarisations."""
+    cos_t = np.sqrt(1 - (1 - cos * cos) / index**2)
+    across = (cos - index * cos_t) / (cos + index * cos_t)
+    parallel = (index * cos - cos_t) / (index * cos + cos_t)
+    return 0.5 * (abs(across) ** 2 + abs(parallel) ** 2)
+
+
+def check_conductors(f):
+    cos = np.linspace(1e-3, 1, 50)
+    for eta, k in (COPPER, (np.full((3, 1), 0.05), np.full((3, 1), 4.0)), (np.full((3, 1), 1.5), np.zeros((3, 1)))):
+        np.testing.assert_allclose(f(cos, eta, k), complex_share(cos, eta + 1j * k), rtol=1e-11)
+
+
+def test_metals_reflect_as_their_complex_index_says():
+    """Also without extinction, where they are glass."""
+    check_conductors(fresnel_conductor)
+    np.testing.assert_allclose(
+        fresnel_conductor(np.ones(1), *COPPER), ((COPPER[0] - 1) ** 2 + COPPER[1] ** 2) / ((COPPER[0] + 1) ** 2 + COPPER[1] ** 2)
+    )
+
+
+def test_a_metal_whose_extinction_has_the_wrong_sign_of_its_square_is_caught():
+    with pytest.raises(AssertionError):
+        check_conductors(lambda cos, eta, k: fresnel_conductor(cos, np.sqrt(eta * eta + k * k), 0 * k))
 
 
 def test_brewster():
