@@ -6,7 +6,6 @@ import numpy as np
 
 from ...engine import (
     GgxAlbedo,
-    Lambert,
     LambertTransmission,
     RelativeIndex,
     Transparent,
@@ -14,7 +13,7 @@ from ...engine import (
     textures_of,
 )
 from .colours import WHITE, added, as_texture, cut, inverted, times, varies
-from .principled import boundary, is_smooth, reflected, refracted
+from .principled import boundary, diffused, is_smooth, reflected, refracted
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,9 +75,9 @@ def merged(lobes):
     return tuple(with_colours(shape, total) for shape, total in sums.items() if any(varies(c) or any(c) for c in total))
 
 
-def diffuse(colour):
-    """Ideal diffuse reflection of `colour`."""
-    return Closure((Lambert(as_texture(colour)),))
+def diffuse(colour, roughness=0.0):
+    """Diffuse reflection of `colour`, ideal unless there is a `roughness`."""
+    return Closure((diffused(as_texture(colour), roughness, colour),))
 
 
 def translucent(colour):
@@ -93,9 +92,15 @@ def glossy(colour, roughness, preserves=True):
     return Closure((reflected(GgxAlbedo(roughness, f0=as_texture(colour), kind="mirror", preserves=preserves), roughness),))
 
 
-def metal(base, tint, roughness):
+def metal(base, tint, roughness, preserves=True):
     """A rough metal that reflects `base` when seen from above, and `tint` at 82 degrees."""
-    return Closure((reflected(GgxAlbedo(roughness, f0=cut(base), tint=cut(tint)), roughness),))
+    return Closure((reflected(GgxAlbedo(roughness, f0=cut(base), tint=cut(tint), preserves=preserves), roughness),))
+
+
+def conductor(ior, extinction, roughness, preserves=True):
+    """A rough metal of the complex index of refraction ior + i extinction."""
+    albedo = GgxAlbedo(roughness, as_texture(ior), extinction=as_texture(extinction), kind="conductor", preserves=preserves)
+    return Closure((reflected(albedo, roughness),))
 
 
 def glass(colour, ior, roughness=0.0, preserves=True):

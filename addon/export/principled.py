@@ -7,7 +7,7 @@ over a diffuse base. Each layer reflects its directional albedo E, that of GGX (
     metal     w m E_F82(base)
     glass     w (1 - m) t, of which V is reflected and (1 - V) sqrt(base) passes
     glossy    w (1 - m) (1 - t) E
-    diffuse   w (1 - m) (1 - t) (1 - E) base
+    diffuse   w (1 - m) (1 - t) (1 - E) base            Oren-Nayar's, where it is rough
 
 So no more leaves than arrives, whatever the angle. The lobes are `Gloss` and `RoughRefraction`, as wide as GGX's, see
 `engine.maths.ggx`; where the roughness is so small that the sharpest is too wide, the mirror and the exact dielectric.
@@ -16,6 +16,7 @@ They know from where they are seen, but not from where they are lit, so they are
 
 from dataclasses import dataclass, replace
 
+import bpy
 import numpy as np
 
 from ...engine import (
@@ -24,20 +25,21 @@ from ...engine import (
     GlassTint,
     Gloss,
     Lambert,
-    LayerWeight,
     LobeExponent,
     Math,
     Mirror,
+    OrenNayar,
     RelativeIndex,
     RoughRefraction,
+    SheenAlbedo,
     folded,
 )
-from .colours import WHITE, added, as_texture, cut, inverted, root, times, typical, varies
+from .colours import BLACK, WHITE, added, as_texture, cut, inverted, root, times, typical, varies
 
 SMOOTHEST = 0.024
 """Blender's roughness below which a lobe would be sharper than the engine's sharpest, 0.1 degrees wide."""
-_SHEEN_STRAIGHT, _SHEEN_RIM = 0.02, 0.6
-"""What Blender's sheen of roughness 1/2 reflects, as measured: 0.02 + 0.6 (1 - cos)^2, within 0.01."""
+_KEEPS_ENERGY = bpy.app.version >= (4, 3)
+"""Whether Blender's rough diffuse surfaces reflect several times, as 5.0 and 5.2 do; 4.2 does not."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -57,13 +59,15 @@ class Layers:
     coat_tint: object = WHITE
     sheen: object = 0.0
     sheen_tint: object = WHITE
+    sheen_roughness: object = 0.5
+    diffuse_roughness: object = 0.0
 
     def lobes(self):
         """(lobes, what is left, a colour or texture, of light that is emitted below sheen and coat)."""
         lobes, left = [], WHITE
         if _is_there(self.sheen):
             # Next to the fibres' own lobe: it is brightest at the rim, and diffuse.
-            sheen = fibres(times(cut(self.sheen), cut(self.sheen_tint)))
+            sheen = fibres(times(cut(self.sheen), cut(self.sheen_tint)), self.sheen_roughness)
             lobes.append(Lambert(sheen))
             left = times(left, inverted(sheen))
         if _is_there(self.coat):
@@ -92,7 +96,15 @@ class Layers:
             yield reflected(times(left, coat), self.roughness)
             is_white = not varies(self.tint) and tuple(self.tint) == WHITE
             left = times(left, inverted(coat) if is_white else replace(coat, is_rest=True))
-        yield Lambert(times(left, base))
+        yield diffused(times(left, base), self.diffuse_roughness, base)
+
+
+def diffused(colour, roughness, again):
+    """A diffuse lobe of `colour`; what a rough surface reflects several times is tinted by `again`."""
+    roughness = cut(roughness)
+    if not varies(roughness) and roughness == 0:
+        return Lambert(colour)
+    return OrenNayar(colour, roughness, cut(again) if _KEEPS_ENERGY else BLACK)
 
 
 def reflected(colour, roughness):
@@ -140,7 +152,6 @@ def _is_there(value):
     return varies(value) or (any(value) if isinstance(value, tuple) else value > 0)
 
 
-def fibres(colour):
+def fibres(colour, roughness, kind="microfiber"):
     """What sheen of `colour` reflects towards the viewer: as fibres that stand upright do, most at the rim."""
-    rim = LayerWeight(0.5)
-    return times(cut(colour), added((_SHEEN_STRAIGHT,) * 3, times(times(rim, rim), _SHEEN_RIM)))
+    return times(cut(colour), SheenAlbedo(roughness, kind))

@@ -49,9 +49,7 @@ def _bent(reader, node, shader):
 
 
 def _diffuse(reader, node):
-    if reader.number(node, "Roughness") > 0:
-        reader.note("Roughness of Diffuse BSDF is left out")
-    return _bent(reader, node, closure.diffuse(reader.value(node, "Color")))
+    return _bent(reader, node, closure.diffuse(reader.value(node, "Color"), reader.value(node, "Roughness")))
 
 
 def _translucent(reader, node):
@@ -107,16 +105,19 @@ def _refraction(reader, node):
 
 
 def _metallic(reader, node):
-    if getattr(node, "fresnel_type", "F82") != "F82":
-        reader.note("Metallic BSDF by extinction is rendered by its Base Color and Edge Tint")
-    values = reader.value(node, "Base Color"), reader.value(node, "Edge Tint", _WHITE), reader.value(node, "Roughness", 0.5)
     _without_anisotropy(reader, node, "Anisotropy")
-    return _bent(reader, node, closure.metal(*values))
+    roughness = reader.value(node, "Roughness", 0.5)
+    if getattr(node, "fresnel_type", "F82") == "F82":
+        values = reader.value(node, "Base Color"), reader.value(node, "Edge Tint", _WHITE)
+        return _bent(reader, node, closure.metal(*values, roughness, _preserves(node)))
+    values = reader.value(node, "IOR"), reader.value(node, "Extinction")
+    return _bent(reader, node, closure.conductor(*values, roughness, _preserves(node)))
 
 
 def _sheen(reader, node):
-    reader.note("Sheen BSDF is rendered as Diffuse that is brightest at the rim, as at Roughness 0.5")
-    return _bent(reader, node, closure.diffuse(fibres(reader.value(node, "Color"))))
+    reader.note("Sheen BSDF is rendered as Diffuse that is brightest at the rim")
+    kind = getattr(node, "distribution", "MICROFIBER").lower()
+    return _bent(reader, node, closure.diffuse(fibres(reader.value(node, "Color"), reader.value(node, "Roughness", 0.5), kind)))
 
 
 def _holdout(reader, node):
@@ -135,7 +136,6 @@ _LEFT_OUT = {
     "Anisotropic": "Anisotropy of Principled BSDF is left out",
     "Thin Film Thickness": "Thin film of Principled BSDF is left out",
     "Thin Wall": "Thin wall of Principled BSDF is left out",
-    "Diffuse Roughness": "Diffuse roughness of Principled BSDF is left out",
 }
 
 
@@ -157,6 +157,8 @@ def _principled(reader, node):
         coat_tint=reader.value(node, "Coat Tint", _WHITE),
         sheen=reader.value(node, "Sheen Weight"),
         sheen_tint=reader.value(node, "Sheen Tint", _WHITE),
+        sheen_roughness=reader.value(node, "Sheen Roughness", 0.5),
+        diffuse_roughness=reader.value(node, "Diffuse Roughness"),
     ).lobes()
     shine = closure.emission(reader.value(node, "Emission Color"), reader.value(node, "Emission Strength")).scaled(left)
     return closure.with_alpha(reader.value(node, "Alpha", 1.0), _bent(reader, node, Closure(lobes, shine.emission)))

@@ -214,10 +214,20 @@ def test_shadows_that_should_not_be_transparent_are_named():
     assert "material 'Blind'" in warning
 
 
-def test_unknown_shaders_are_diffuse_in_their_colour_and_named():
-    exported, warnings = _exported(blender.new_material("Shirt", "ShaderNodeBsdfToon", Color=(0.5, 0.6, 0.7, 1)))
+@pytest.mark.parametrize(
+    ("kind", "label"),
+    [
+        ("BsdfToon", "Toon BSDF"),
+        ("BsdfHair", "Hair BSDF"),
+        ("BsdfHairPrincipled", "Principled Hair BSDF"),
+        ("BsdfRayPortal", "Ray Portal BSDF"),
+        ("SubsurfaceScattering", "Subsurface Scattering"),
+    ],
+)
+def test_unknown_shaders_are_diffuse_in_their_colour_and_named(kind, label):
+    exported, warnings = _exported(blender.new_material("Shirt", f"ShaderNode{kind}", Color=(0.5, 0.6, 0.7, 1)))
     assert exported.lobes[0].reflectance == pytest.approx((0.5, 0.6, 0.7))
-    assert warnings == ("Toon BSDF is not supported and is rendered as Diffuse of its colour: material 'Shirt'",)
+    assert warnings == (f"{label} is not supported and is rendered as Diffuse of its colour: material 'Shirt'",)
 
 
 def test_textures_that_are_not_read_are_named_and_the_sockets_own_value_is_used():

@@ -5,7 +5,18 @@ import numpy as np
 import pytest
 
 from glanz.addon.export import principled
-from glanz.engine import CheckerTexture, Coordinates, GgxAlbedo, Gloss, Mirror, OrthographicCamera, RoughRefraction, is_texture
+from glanz.engine import (
+    CheckerTexture,
+    Coordinates,
+    GgxAlbedo,
+    Gloss,
+    Mirror,
+    OrenNayar,
+    OrthographicCamera,
+    RoughRefraction,
+    SheenAlbedo,
+    is_texture,
+)
 from glanz.engine.scene.points import Probes
 from glanz.tests import helpers as h
 from glanz.tests.addon import blender
@@ -69,15 +80,87 @@ def test_holdout_is_black_and_named():
     assert warning.startswith("Holdout")
 
 
-def test_sheen_is_a_diffuse_rim_and_says_so():
-    """0.02 seen straight, 0.62 at the rim, of its colour."""
-    blender.add_plane().data.materials.append(blender.new_material("Velvet", "ShaderNodeBsdfSheen", Color=(1, 0.5, 0, 1)))
-    scene, (warning,) = blender.export()
+@pytest.mark.parametrize("kind", ["MICROFIBER", "ASHIKHMIN"])
+def test_sheen_is_a_diffuse_rim_of_its_roughness_and_says_so(kind):
+    velvet = blender.new_material("Velvet", "ShaderNodeBsdfSheen", Color=(1, 0.5, 0, 1), Roughness=0.3)
+    velvet.node_tree.nodes["Sheen BSDF"].distribution = kind
+    material, (warning,) = _exported(velvet)
     assert "rim" in warning
     assert "material 'Velvet'" in warning
-    (lobe,) = scene.objects[0].materials[0].lobes
-    cos = -Probes().d[2]
-    assert Probes().value(lobe.reflectance) == pytest.approx(np.outer((1, 0.5, 0), 0.02 + 0.6 * (1 - cos) ** 2), abs=1e-5)
+    (lobe,) = material.lobes
+    probes = Probes()
+    albedo = probes.value(SheenAlbedo(0.3, kind.lower()))
+    assert probes.value(lobe.reflectance) == pytest.approx(np.outer((1, 0.5, 0), albedo), abs=1e-6)
+
+
+def test_sheen_of_principled_has_its_roughness():
+    values = {"Sheen_Weight": 1, "Sheen_Roughness": 0.25, "Base_Color": (0, 0, 0, 1), "Specular_IOR_Level": 0}
+    material, _ = _exported(blender.new_material("Velvet", "ShaderNodeBsdfPrincipled", **values))
+    probes = Probes()
+    albedo = probes.value(SheenAlbedo(0.25))
+    assert np.abs(probes.value(material.lobes[0].reflectance) - albedo).max() <= 1e-6
+
+
+@pytest.mark.skipif(not hasattr(bpy.types, "ShaderNodeBsdfMetallic"), reason="since Blender 4.3")
+def test_metal_by_extinction_has_the_complex_index():
+    copper = blender.new_material("Copper", "ShaderNodeBsdfMetallic", Roughness=0.5, IOR=(0.2, 0.92, 1.1), Extinction=(3.9, 2.4, 2.1))
+    copper.node_tree.nodes["Metallic BSDF"].fresnel_type = "PHYSICAL_CONDUCTOR"
+    material, warnings = _exported(copper)
+    assert warnings == ()
+    albedo = material.lobes[0].reflectance
+    assert albedo.kind == "conductor"
+    assert albedo.ior == pytest.approx((0.2, 0.92, 1.1))
+    assert albedo.extinction == pytest.approx((3.9, 2.4, 2.1))
+
+
+AGAIN = (0.0, 0.0, 0.0) if bpy.app.version < (4, 3) else (0.8, 0.4, 0.2)
+"""Rough diffuse surfaces of Blender 4.2 reflect but once."""
+
+
+def test_a_rough_diffuse_surface_is_oren_nayar():
+    material, warnings = _exported(blender.new_material("Clay", "ShaderNodeBsdfDiffuse", Color=(0.8, 0.4, 0.2, 1), Roughness=0.7))
+    assert warnings == ()
+    (lobe,) = material.lobes
+    assert type(lobe) is OrenNayar
+    assert lobe.roughness == pytest.approx(0.7)
+    assert lobe.reflectance == pytest.approx((0.8, 0.4, 0.2))
+    assert lobe.again == pytest.approx(AGAIN)
+
+
+def test_half_of_a_rough_diffuse_surface_reflects_again_as_the_whole_does():
+    clay = blender.new_material("Clay", "ShaderNodeBsdfDiffuse", Color=(0.8, 0.4, 0.2, 1), Roughness=0.7)
+    tree = clay.node_tree
+    mix = blender.add_node(tree, "ShaderNodeMixShader", Fac=0.5)
+    tree.links.new(tree.nodes["Diffuse BSDF"].outputs[0], mix.inputs[2])
+    tree.links.new(mix.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
+    (lobe,) = _exported(clay)[0].lobes
+    assert lobe.reflectance == pytest.approx((0.4, 0.2, 0.1))
+    assert lobe.again == pytest.approx(AGAIN)
+
+
+def test_roughness_of_diffuse_may_be_a_texture():
+    clay = blender.new_material("Clay", "ShaderNodeBsdfDiffuse")
+    tree = clay.node_tree
+    tree.links.new(tree.nodes.new("ShaderNodeTexNoise").outputs[0], tree.nodes["Diffuse BSDF"].inputs["Roughness"])
+    material, warnings = _exported(clay)
+    assert warnings == ()
+    assert is_texture(material.lobes[0].roughness)
+
+
+def test_roughness_of_the_base_of_principled_is_that_of_oren_nayar():
+    node = {"Base_Color": (0.8, 0.4, 0.2, 1), "Specular_IOR_Level": 0}
+    material = blender.new_material("Clay", "ShaderNodeBsdfPrincipled", **node)
+    roughness = next((s for s in material.node_tree.nodes["Principled BSDF"].inputs if s.identifier == "Diffuse Roughness"), None)
+    if roughness is None:
+        pytest.skip("since Blender 4.4")
+    roughness.default_value = 0.4
+    exported, warnings = _exported(material)
+    assert warnings == ()
+    (lobe,) = exported.lobes
+    assert type(lobe) is OrenNayar
+    assert lobe.roughness == pytest.approx(0.4)
+    assert lobe.reflectance == pytest.approx((0.8, 0.4, 0.2))
+    assert lobe.again == pytest.approx((0.8, 0.4, 0.2))
 
 
 def even_light(roughness):
