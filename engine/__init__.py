@@ -24,6 +24,7 @@ from .constants import VERSION
 from .errors import FileError, GlanzError, SceneError
 from .interfaces import albedo_of
 from .io.exr import write_exr
+from .io.ies import parse_ies
 from .io.scene_file import read_scene, write_scene
 from .libraries import library_faults
 from .lights.area import AreaLight
@@ -34,7 +35,7 @@ from .lights.sun import SunLight
 from .registry import FILTERS, INTEGRATORS, PASSES, SAMPLERS, TEXTURES
 from .rendering import Image, Progress, Tile, metadata, prepare, render, render_image, render_plan
 from .requirements import Requirements
-from .scene import Bitmap, Coordinates, EnvironmentMap, Lens, Material, Medium, Mesh, MeshAttribute, Object, Scene, Settings, World
+from .scene import Bitmap, Coordinates, EnvironmentMap, Lens, Material, Medium, Mesh, MeshAttribute, Object, Scene, Settings, Shade, World
 from .scene.graphs import is_texture
 from .scene.points import average_of
 from .scene.textured import folded, textures_of
@@ -60,9 +61,11 @@ from .textures.ggx_albedo import GgxAlbedo
 from .textures.glass_tint import GlassTint
 from .textures.gradient import GradientTexture
 from .textures.hue_saturation import HueSaturation
+from .textures.ies import IesTexture
 from .textures.image import ImageTexture
 from .textures.invert import Invert
 from .textures.layer_weight import LayerWeight
+from .textures.light_falloff import LightFalloff
 from .textures.light_path import LightPath
 from .textures.linear import LinearTexture
 from .textures.lobe_exponent import LobeExponent
@@ -130,6 +133,7 @@ __all__ = [
     "Gloss",
     "GradientTexture",
     "HueSaturation",
+    "IesTexture",
     "Image",
     "ImageTexture",
     "Invert",
@@ -137,6 +141,7 @@ __all__ = [
     "LambertTransmission",
     "LayerWeight",
     "Lens",
+    "LightFalloff",
     "LightPath",
     "LinearTexture",
     "LobeExponent",
@@ -174,6 +179,7 @@ __all__ = [
     "SceneError",
     "Separate",
     "Settings",
+    "Shade",
     "SheenAlbedo",
     "SkyTexture",
     "SpotLight",
@@ -196,6 +202,7 @@ __all__ = [
     "is_texture",
     "library_faults",
     "metadata",
+    "parse_ies",
     "prepare",
     "read_scene",
     "render",

@@ -160,7 +160,8 @@ def has_detail(texture):
 class Light(Protocol):
     """A light object that is no mesh; it gives light and casts no shadow.
 
-    `is_visible` (bool) is a field of every light value: camera rays see it. Scattered rays always do.
+    `is_visible` (bool) is a field of every light value: camera rays see it. Scattered rays always do. So is `shade`, a `Shade` or
+    None.
     A light that can be thought of as a point also has middle(k): the numbers u2, (2, M) or (2, 1), with which `sample`
     finds its middle.
     """
@@ -199,6 +200,14 @@ class Light(Protocol):
     @staticmethod
     def hit(k, o, d):
         """Where rays meet the light: t (N,), inf for a miss; L (3, N) towards the ray; pdf (N,) of `sample` at o."""
+
+    @staticmethod
+    def seen(k, p, d, distance):
+        """What textures are told where rays along d (3, N) from p (3, N) meet the light at `distance` (N,).
+
+        The place (3, N), render space; the normal (3, N) there; and texture coordinates uv (2, N). Rows `k` also have the columns
+        of `world.shades.place_columns`. A light that `is_distant` (a class attribute) has directions as places.
+        """
 
 
 @runtime_checkable

@@ -44,7 +44,7 @@ MEANING = {
     TRANSPARENCY: "surfaces that rays may pass straight on",
     TINTED_SHADOWS: "surfaces that weaken light on its straight way to others instead of blocking it",
     DISPERSION: "indices of refraction that depend on the wavelength",
-    TEXTURES: "parameters of materials that vary over a surface",
+    TEXTURES: "parameters of materials that vary over a surface, and lights that shine through textures",
     FOOTPRINTS: "textures with detail, averaged over what a ray stands for",
     RELIEF: "shading normals bent by textures",
     LIGHT_PATHS: "paths that know what has scattered them",

@@ -84,6 +84,8 @@ class Requirements:
         shining = [light for light in scene.lights if any(light.power())]
         for light in shining:
             ask(needs.of_plugin("light", type(light)), light.name)
+            if light.shade is not None:
+                ask(needs.TEXTURES, light.name)
             if light.has_extent():
                 ask(needs.LIGHT_HITS, light.name)
         world = scene.world

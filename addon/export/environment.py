@@ -8,7 +8,7 @@ from ...engine import Coordinates, EnvironmentMap, EnvironmentTexture
 from .colours import terms_of, varies
 from .images import linear_pixels
 
-_DIRECTION = Coordinates(source="generated")
+_DIRECTION = Coordinates(source="position")
 _INTERPOLATIONS = {"Linear": "linear", "Closest": "closest"}
 
 

@@ -7,40 +7,80 @@ from Blender 4.5 on.
 
 import math
 
+import bpy
 import numpy as np
 
-from ...engine import AreaLight, CosineSpotLight, PointLight, SpotLight, SunLight
+from ...engine import AreaLight, CosineSpotLight, PointLight, Shade, SpotLight, SunLight
+from .colours import as_texture, varies
 from .nodes import has_nodes, output_node
 from .shaders import surface_of
 
+LIGHTS_ARE_OBJECTS = (4, 5)
+"""The Blender from which on lights of Cycles have a frame and values as objects have."""
 SMALLEST_SPREAD = math.radians(0.1)
 """Blender allows a spread of 0, which no light has."""
 _ROUND = ("DISK", "ELLIPSE")
 
 
-def export_light(light_object, matrix, findings):
-    """The engine's light for a light object (evaluated) placed by `matrix` (4, 4), or None where it gives no light."""
+def export_light(light_object, matrix, findings, emissions, values_of=lambda names: ()):
+    """The engine's light for a light object (evaluated) placed by `matrix` (4, 4), or None where it gives no light.
+
+    emissions  the `Emissions` of all lights
+    values_of  `Object.values` of the light by their names, for textures that ask for them
+    """
     light = light_object.data
     name = f"light '{light_object.name}'"
     if getattr(getattr(light, "cycles", None), "is_portal", False):
         findings.note("light portals are ignored", name)
         return None
     note_ignored(light_object, light, name, findings)
-    common = {"name": light_object.name, "is_visible": bool(light_object.visible_camera)}
-    return _KINDS[light.type](light, matrix, strength(light, name, findings), common, name, findings)
+    emission = emissions.of(light, name)
+    shade, S = None, strength(light)
+    if varies(emission):
+        asked = sorted(name for source, name in Shade(texture=emission).attributes if source == "value")
+        shade = Shade(texture=emission, world_from_light=matrix, values=values_of(asked))
+    else:
+        S = S * emission
+    common = {"name": light_object.name, "is_visible": bool(light_object.visible_camera), "shade": shade}
+    return _KINDS[light.type](light, matrix, S, common, name, findings)
 
 
-def strength(light, name, findings):
-    """S, (3,) float64, in the unit of the light's kind."""
+class Emissions:
+    """Colour times strength of the Emission nodes of lights: three numbers or a texture, read once for all that share a light."""
+
+    def __init__(self, findings, bitmaps):
+        self._findings, self._bitmaps = findings, bitmaps
+        self._known = {}
+
+    def of(self, light, name):
+        """What the nodes of `light` (evaluated) give; `name` is that of the light in notes."""
+        key = light.original.as_pointer()
+        if key not in self._known:
+            self._known[key] = self._read(light, name)
+        return self._known[key]
+
+    def _read(self, light, name):
+        if not has_nodes(light):
+            return (1.0, 1.0, 1.0)
+        output = output_node(light.node_tree)
+        if output is None:
+            self._findings.note("the node tree has no active output, so the light is dark", name)
+            return (0.0, 0.0, 0.0)
+        emission = as_texture(surface_of(output, name, self._findings, self._bitmaps).emission)
+        if varies(emission) and bpy.app.version < LIGHTS_ARE_OBJECTS and _asks_for_frame(emission):
+            self._findings.note("its textures are asked in its own frame, as from Blender 4.5 on; before, Cycles took the world's", name)
+        return emission
+
+
+def _asks_for_frame(texture):
+    return not {"object", "generated", "camera", "value"}.isdisjoint(source for source, _ in Shade(texture=texture).attributes)
+
+
+def strength(light):
+    """S without nodes, (3,) float64, in the unit of the light's kind."""
     S = np.array(light.color, np.float64) * light.energy * 2.0 ** getattr(light, "exposure", 0.0)
     if getattr(light, "use_temperature", False):
         S = S * np.array(light.temperature_color, np.float64)
-    if has_nodes(light):
-        output = output_node(light.node_tree)
-        if output is None:
-            findings.note("the node tree has no active output, so the light is dark", name)
-            return np.zeros(3)
-        S = S * surface_of(output, name, findings).emission
     return S
 
 

@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 
 from ...engine import GlanzError, Object, SceneError
-from .light import export_light
+from .light import Emissions, export_light
 from .material import export_material, is_volume_only
 from .mesh import export_mesh
 from .motion import STILL
@@ -46,7 +46,7 @@ def export_objects(depsgraph, findings, bitmaps, material_override=None, check=l
     replaces all materials. `check` is called now and then and may raise to stop. `tracks` is told who is there, and moves them, see
     `motion`. Raises SceneError naming the object that failed.
     """
-    parts = _Parts(findings, bitmaps, material_override)
+    parts, emissions = _Parts(findings, bitmaps, material_override), Emissions(findings, bitmaps)
     placed, matrices, values, identities, lights = [], [], [], [], []
     for i, instance in enumerate(depsgraph.object_instances):
         if i % POLL_EVERY == 0:
@@ -55,7 +55,7 @@ def export_objects(depsgraph, findings, bitmaps, material_override=None, check=l
         ob, matrix = instance.object, np.array(instance.matrix_world, np.float64)
         try:
             if ob.type == "LIGHT":
-                light = _placed_light(ob, matrix, findings)
+                light = _placed_light(instance, matrix, findings, emissions, depsgraph)
                 if light is not None:
                     lights.append(light)
                     tracks.start_light(instance, matrix, light)
@@ -72,11 +72,12 @@ def export_objects(depsgraph, findings, bitmaps, material_override=None, check=l
     return tracks.moved(identities, objects), tuple(lights)
 
 
-def _placed_light(ob, matrix, findings):
+def _placed_light(instance, matrix, findings, emissions, depsgraph):
+    ob = instance.object
     if not is_placed(matrix[None])[0]:
         findings.note("the transform is not finite, so it is left out", f"light '{ob.name}'")
         return None
-    return export_light(ob, matrix, findings)
+    return export_light(ob, matrix, findings, emissions, lambda names: object_values(instance, names, depsgraph))
 
 
 def _placed_objects(parts, matrices, values, findings):

@@ -1,7 +1,7 @@
 """Reading the values of sockets: constants, or the engine's textures where nodes make them vary."""
 
 from ...engine import Average, Luminance, folded, is_texture
-from . import environment, nodes_colours, nodes_converters, nodes_images, nodes_inputs, nodes_patterns, nodes_sky
+from . import environment, nodes_colours, nodes_converters, nodes_images, nodes_inputs, nodes_lights, nodes_patterns, nodes_sky
 from .bitmaps import Bitmaps
 from .colours import typical, varies
 from .nodes import Links, input_by_identifier
@@ -12,6 +12,7 @@ TABLE = {
     **nodes_converters.TABLE,
     **nodes_images.TABLE,
     **nodes_inputs.TABLE,
+    **nodes_lights.TABLE,
     **nodes_patterns.TABLE,
     **nodes_sky.TABLE,
 }

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..errors import FileError, GlanzError
 from ..registry import BSDFS, CAMERAS, LIGHTS, TEXTURES
-from ..scene import Bitmap, Coordinates, EnvironmentMap, Lens, Material, Medium, Mesh, MeshAttribute, Object, Scene, Settings, World
+from ..scene import Bitmap, Coordinates, EnvironmentMap, Lens, Material, Medium, Mesh, MeshAttribute, Object, Scene, Settings, Shade, World
 from ..textures.bump_map import BumpMap
 from ..textures.linear import LinearTexture
 from ..textures.normal_map import NormalMap
@@ -21,13 +21,14 @@ PARTS = {
     Material: {"lobes": [BSDFS], "relief": [TEXTURES], "medium": Medium},
     World: {"environment": EnvironmentMap},
     LinearTexture: {"textures": [TEXTURES]},
+    Shade: {"texture": TEXTURES},
 }
 """Which fields hold other values, and of which type; in a list: any number of them."""
 
 
 def types():
     """{name in the file: type} of all that may stand in a file; plug-ins are named `light/point` by their keys."""
-    values = (Scene, World, EnvironmentMap, Object, Mesh, MeshAttribute, Material, Medium, Lens, Settings, Bitmap, Coordinates)
+    values = (Scene, World, EnvironmentMap, Object, Mesh, MeshAttribute, Material, Medium, Lens, Settings, Shade, Bitmap, Coordinates)
     # The two reliefs that there were before textures could be anything.
     plain = {cls.__name__: cls for cls in (*values, NormalMap, BumpMap)}
     plugins = {"bsdf": BSDFS, "light": LIGHTS, "camera": CAMERAS, "texture": TEXTURES}
@@ -136,7 +137,7 @@ _TEXTURED = {Material: ("emission", "alpha"), World: ("radiance",)}
 
 def _check_field(cls, field, value):
     """Raises FileError unless `value` is of the kind that the field holds by default, or that PARTS names."""
-    part = PARTS.get(cls, {}).get(field.name)
+    part = Shade if cls in LIGHTS.values() and field.name == "shade" else PARTS.get(cls, {}).get(field.name)
     if part is not None:
         fits = isinstance(value, tuple) and all(map(_fits_type(part[0]), value)) if isinstance(part, list) else _fits_type(part)(value)
     elif field.type is object and cls in TEXTURES.values():
@@ -163,8 +164,8 @@ def _check_field(cls, field, value):
 
 def _fits_type(part):
     allowed = tuple(part.values()) if isinstance(part, dict) else (part,)
-    # A scene may lack its camera, rendering says so; a material its medium; and a world its picture.
-    return lambda value: type(value) in allowed or (part in (CAMERAS, Medium, EnvironmentMap) and value is None)
+    # A scene may lack its camera, rendering says so; a material its medium; a world its picture; and a light its shade.
+    return lambda value: type(value) in allowed or (part in (CAMERAS, Medium, EnvironmentMap, Shade) and value is None)
 
 
 def _is_alike(default, value):

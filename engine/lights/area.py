@@ -9,6 +9,7 @@ from ..constants import PI
 from ..errors import SceneError
 from ..maths.vectors import dot
 from ..maths.warps import CENTRE, square_to_disk
+from ..scene.shade import Shade
 from . import registry
 
 
@@ -24,6 +25,7 @@ class AreaLight:
     spread            full angle [rad] in (0, pi] into which it shines; below pi, radiance falls with the angle as
                       behind a grid: max(tan a - tan theta, 0) / (tan a - a), a = spread / 2, so the flux stays
     is_visible        camera rays see the shape
+    shade             the `Shade` that its light passes; None: it shines as above
     """
 
     key = "area"
@@ -37,6 +39,7 @@ class AreaLight:
     radiance: tuple = (1.0, 1.0, 1.0)
     spread: float = math.pi
     is_visible: bool = False
+    shade: Shade | None = None
 
     def _axes(self):
         matrix = np.asarray(self.world_from_light, np.float64)
@@ -133,6 +136,13 @@ class AreaLight:
         with np.errstate(divide="ignore", invalid="ignore"):
             pdf = t * t / (k.area * np.maximum(cos, 0))
         return np.where(meets, t, np.inf), _radiance(k, cos), pdf
+
+    @staticmethod
+    def seen(k, p, d, distance):
+        place = p + d * distance
+        offset = place - k.centre
+        u, v = (dot(offset, axis) / np.maximum(dot(axis, axis), np.finfo(offset.dtype).tiny) for axis in (k.axis_x, k.axis_y))
+        return place, np.broadcast_to(k.normal, place.shape), np.stack((u, v)) + np.float32(0.5)
 
 
 def _place(k, u2):

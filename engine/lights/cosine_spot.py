@@ -8,6 +8,7 @@ from ..constants import PI
 from ..maths import bulbs
 from ..maths.lobes import check_exponent
 from ..maths.vectors import cosine_power
+from ..scene.shade import Shade
 from . import registry
 
 
@@ -22,6 +23,7 @@ class CosineSpotLight:
     radius            of the bulb [m]; 0: a point
     soft_falloff      the bulb is a disk facing whatever it lights (Blender's default); else a sphere
     is_visible        camera rays see the bulb
+    shade             the `Shade` that its light passes; None: it shines as above
     """
 
     key = "cosine_spot"
@@ -34,6 +36,7 @@ class CosineSpotLight:
     radius: float = 0.0
     soft_falloff: bool = True
     is_visible: bool = False
+    shade: Shade | None = None
 
     @property
     def position(self):
@@ -76,3 +79,7 @@ class CosineSpotLight:
     def hit(k, o, d):
         t, L, pdf = bulbs.hit(k, o, d)
         return t, L * cosine_power(k.axis, -d, k.exponent), pdf
+
+    @staticmethod
+    def seen(k, p, d, distance):
+        return bulbs.seen(k, p, d, distance)

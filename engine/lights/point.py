@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from ..maths import bulbs
+from ..scene.shade import Shade
 from . import registry
 
 
@@ -16,6 +17,7 @@ class PointLight:
     radius        of the bulb [m]; 0: a point
     soft_falloff  the bulb is a disk that turns to face whatever it lights (Blender's default); else a sphere
     is_visible    camera rays see the bulb (Blender's lights are invisible to the camera by default)
+    shade         the `Shade` that its light passes; None: it shines as above
     """
 
     key = "point"
@@ -27,6 +29,7 @@ class PointLight:
     radius: float = 0.0
     soft_falloff: bool = True
     is_visible: bool = False
+    shade: Shade | None = None
 
     def row(self, frame):
         return bulbs.row(frame, self)
@@ -55,3 +58,7 @@ class PointLight:
     @staticmethod
     def hit(k, o, d):
         return bulbs.hit(k, o, d)
+
+    @staticmethod
+    def seen(k, p, d, distance):
+        return bulbs.seen(k, p, d, distance)

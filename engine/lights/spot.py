@@ -8,6 +8,7 @@ import numpy as np
 from ..errors import SceneError
 from ..maths import bulbs
 from ..maths.vectors import dot, normalize
+from ..scene.shade import Shade
 from . import registry
 
 
@@ -23,6 +24,7 @@ class SpotLight:
     radius            of the bulb [m]; 0: a point
     soft_falloff      the bulb is a disk facing whatever it lights (Blender's default); else a sphere
     is_visible        camera rays see the bulb
+    shade             the `Shade` that its light passes; None: it shines as above
 
     The edge is Blender's: smoothstep((cos theta - cos(angle / 2)) / ((1 - cos(angle / 2)) blend)).
     """
@@ -38,6 +40,7 @@ class SpotLight:
     radius: float = 0.0
     soft_falloff: bool = True
     is_visible: bool = False
+    shade: Shade | None = None
 
     @property
     def position(self):
@@ -89,6 +92,14 @@ class SpotLight:
     def hit(k, o, d):
         t, L, pdf = bulbs.hit(k, o, d)
         return t, L * falloff(k, d), pdf
+
+    @staticmethod
+    def seen(k, p, d, distance):
+        place, n, _ = bulbs.seen(k, p, d, distance)
+        # The cone fills the square, however wide it is (as in Cycles).
+        x, y, z = (dot(axis, d) for axis in (k.axis_x, k.axis_y, k.axis_z))
+        reach = 0.5 * k.cos_edge / (z * np.sqrt(1 - k.cos_edge * k.cos_edge))
+        return place, n, np.float32(0.5) - np.stack((x * reach, y * reach))
 
 
 def falloff(k, towards_light):

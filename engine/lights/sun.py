@@ -8,8 +8,10 @@ import numpy as np
 from ..constants import PI
 from ..errors import SceneError
 from ..maths.frames import to_world
-from ..maths.vectors import dot
+from ..maths.light_frames import to_light
+from ..maths.vectors import dot, length
 from ..maths.warps import CENTRE, square_to_cone, square_to_cone_pdf
+from ..scene.shade import Shade
 from . import registry
 
 
@@ -22,18 +24,21 @@ class SunLight:
     irradiance  on a surface that faces it [W m^-2], (r, g, b)
     angle       angular diameter [rad], in [0, pi]; 0: a direction
     is_visible  camera rays see the disk
+    shade       the `Shade` that its light passes; None: it shines as above
 
     The disk has the radiance E / (pi sin^2(angle / 2)).
     """
 
     key = "sun"
     label = "Sun"
+    is_distant = True
 
     name: str = "Sun"
     towards: tuple = (0.0, 0.0, 1.0)
     irradiance: tuple = (1.0, 1.0, 1.0)
     angle: float = 0.0
     is_visible: bool = False
+    shade: Shade | None = None
 
     def row(self, frame):
         half = 0.5 * self.angle
@@ -78,3 +83,11 @@ class SunLight:
         inside = 0.5 * dot(apart, apart) < k.one_minus_cos
         farthest = np.finfo(d.dtype).max
         return np.where(inside, farthest, np.inf).astype(d.dtype), k.radiance, square_to_cone_pdf(k.one_minus_cos)
+
+    @staticmethod
+    def seen(k, p, d, distance):
+        # The disk fills the square (as in Cycles), a direction is its middle.
+        x, y, _ = to_light(k, d)
+        scale = np.sqrt(2 * k.one_minus_cos) * length(d + k.towards)
+        u, v = (np.divide(a, scale, out=np.zeros_like(a), where=scale > 0) for a in (x, y))
+        return -d, -d, np.stack((u, v)) + np.float32(0.5)

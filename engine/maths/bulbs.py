@@ -11,6 +11,7 @@ import numpy as np
 from ..constants import PI
 from ..errors import SceneError
 from .frames import to_world
+from .light_frames import around
 from .vectors import dot, length, normalize
 from .warps import CENTRE, square_to_cone, square_to_cone_pdf, square_to_disk
 
@@ -72,6 +73,15 @@ def hit(k, o, d):
     ball = _hit_ball(k, to_centre, d)
     soft = k.soft > 0
     return tuple(np.where(soft, a, b) for a, b in zip(disk, ball))
+
+
+def seen(k, p, d, distance):
+    """See `interfaces.Light.seen`: a disk faces the ray, a ball shows its surface; around both is a map of all directions."""
+    place = np.where(k.radius > 0, p + d * distance, k.position)
+    n = np.where(k.soft > 0, -d, normalize(place - k.position))
+    # Who is without a size has no side but that from which it is seen.
+    n = np.where(k.radius > 0, n, -d)
+    return place, n, around(k, n)
 
 
 def _sample_disk(k, to_centre, u2):

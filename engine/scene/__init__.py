@@ -6,6 +6,7 @@ from .environment import EnvironmentMap
 from .lens import Lens
 from .medium import Medium
 from .settings import Settings
+from .shade import Shade
 from .values import Material, Mesh, MeshAttribute, Object, Scene, World
 
 __all__ = [
@@ -20,5 +21,6 @@ __all__ = [
     "Object",
     "Scene",
     "Settings",
+    "Shade",
     "World",
 ]

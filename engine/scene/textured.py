@@ -81,7 +81,11 @@ def material_textures(material):
 
 
 def attributes_of(material):
-    """What a material's textures ask of meshes and objects, keys as in `world.attributes`."""
-    textures = material_textures(material)
+    """What a material's textures ask of meshes and objects, see `asked_by`."""
+    return asked_by(material_textures(material))
+
+
+def asked_by(textures):
+    """What textures ask of meshes and objects, keys as in `world.attributes`."""
     found = [c.attribute for texture in textures for c in coordinates_of(texture)]
     return frozenset([*found, *(key for texture in textures for part in with_inner(texture) for key in getattr(part, "attributes", ()))])

@@ -13,6 +13,7 @@ from .coordinates import Coordinates
 from .environment import EnvironmentMap
 from .graphs import inputs_of, is_texture, with_inner
 from .medium import Medium
+from .shade import Shade
 from .textured import coordinates_of, material_textures, plain, textures_of
 
 
@@ -122,16 +123,27 @@ def _check_texture(texture, owner):
 def _check_light(light, warnings):
     if type(light) not in LIGHTS.values():
         raise SceneError(f"{type(light).__name__} is not a light")
-    numbers = [getattr(light, f.name) for f in dataclasses.fields(light) if f.name != "name"]
+    numbers = [getattr(light, f.name) for f in dataclasses.fields(light) if f.name not in ("name", "shade")]
     if not all(np.isfinite(np.asarray(value, np.float64)).all() for value in numbers):
         warnings.append(f"light '{light.name}' is left out: one of its values is not finite")
         return False
+    if light.shade is not None:
+        _check_shade(light.shade, f"light '{light.name}'", warnings)
     # First what power() computes with.
     light.check()
     if min(light.power()) < 0:
         warnings.append(f"light '{light.name}' is left out: it would take light away")
         return False
     return True
+
+
+def _check_shade(shade, owner, warnings):
+    if type(shade) is not Shade:
+        raise SceneError(f"{owner}: its shade is {shade!r}, allowed: a Shade")
+    shade.check(owner)
+    _check_texture(shade.texture, owner)
+    if any(getattr(part, "counts_bounces", False) for part in with_inner(shade.texture)):
+        warnings.append(f"{owner}: how often a path was scattered is not known where it meets the light, it counts as on the first bounce")
 
 
 def _check_world(world, warnings):

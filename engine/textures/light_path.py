@@ -35,5 +35,10 @@ class LightPath:
         """Whether paths must carry along what has scattered them."""
         return self.output not in ("camera", "shadow", "length", "depth")
 
+    @property
+    def counts_bounces(self):
+        """Whether it differs from bounce to bounce."""
+        return self.output.endswith("depth")
+
     def eval(self, at):
         return at.path(self.output)

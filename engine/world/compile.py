@@ -92,10 +92,7 @@ class CompiledWorld:
     def seen_from(self, camera):
         """The same world with another camera, in the same render space."""
         space = CameraSpace.of(camera, self.frame)
-        if self.glow is EVEN:
-            return replace(self, camera=space)
-        glow = replace(self.glow, camera=space)
-        return replace(self, camera=space, glow=glow, lights=self.lights.with_glow(glow))
+        return replace(self, camera=space, glow=self.glow.seen_from(space), lights=self.lights.seen_from(space))
 
 
 # Corners may be anything; what is not finite after all is found by `_measure` and told.
@@ -194,7 +191,7 @@ def compile_world(
         triangles=triangles,
         materials=table,
         by_cosine=by_cosine,
-        lights=Lights.of(scene.lights, environment, emitters, frame, radius, has_choice, samples_lights, glow),
+        lights=Lights.of(scene.lights, environment, emitters, frame, radius, has_choice, samples_lights, glow, camera),
         emitters=emitters,
         background=np.array((0.0, 0.0, 0.0) if environment else scene.world.radiance, np.float32)[:, None],
         media=Media.of(bodies, row, material, owner[keep], frame.scale) if has_media else None,

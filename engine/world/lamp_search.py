@@ -18,7 +18,10 @@ _MARGIN = 2.0**-20
 
 @dataclass(frozen=True, slots=True)
 class Hittable:
-    """A light object with a size: its kind, its row, its index among all lights, its bounding sphere, whether the camera sees it."""
+    """A light object with a size: its kind, its row, its index among all lights, its bounding sphere, whether the camera sees it.
+
+    And the number of its group, see `lights.Lights`.
+    """
 
     light: type
     k: object
@@ -26,6 +29,7 @@ class Hittable:
     centre: tuple
     radius: float
     is_visible: bool
+    group: int
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,6 +12,7 @@ from ..lights.triangle import TriangleLight
 from .lamp_search import MOST_ASKED, SHARP, Hittable, search_of
 from .light_choice import ByPlace, OnlyLight
 from .light_tree_choice import ByTree
+from .shades import ShadedGlow, share_left
 from .texturing import EVEN
 
 MOST_WEIGHED = 32
@@ -22,7 +23,7 @@ MOST_WEIGHED = 32
 class Group:
     """Lights of one kind: indices first .. first + count - 1 of all lights.
 
-    glow    what textured patches shine with, see `texturing`
+    glow    what textured patches shine with, see `texturing`, and what lights do through textures, see `shades`
     """
 
     light: type
@@ -79,19 +80,21 @@ class Lights:
     lamps: int = 0
 
     @classmethod
-    def of(cls, lamps, environment, emitters, frame, radius, has_choice=True, are_sampled=True, glow=EVEN):
+    def of(cls, lamps, environment, emitters, frame, radius, has_choice=True, are_sampled=True, glow=EVEN, camera=None):
         """From light values `lamps`, an `Environment` or None, and `Emitters`; `radius` [m] is the scene's, for what is distant.
 
         `has_choice` says that there may be more than one light, `are_sampled` that shadow rays look for them;
-        `glow` is that of the emitters.
+        `glow` is that of the emitters; `camera` is the `CameraSpace`, for lights with a shade.
         """
         lamps = [lamp for lamp in lamps if any(lamp.power())]
-        kinds = dict.fromkeys(type(lamp) for lamp in lamps)
-        lamps = [lamp for kind in kinds for lamp in lamps if type(lamp) is kind]
+        kinds = {}
+        for lamp in lamps:
+            kinds.setdefault((type(lamp), lamp.shade is not None), []).append(lamp)
         groups = []
-        for kind in kinds:
-            rows = [lamp.row(frame) for lamp in lamps if type(lamp) is kind]
-            groups.append(Group(kind, columns(rows), sum(g.count for g in groups), len(rows)))
+        for (kind, is_shaded), own in kinds.items():
+            k, shine = ShadedGlow.of(own, frame, camera) if is_shaded else (columns([lamp.row(frame) for lamp in own]), EVEN)
+            groups.append(Group(kind, k, sum(g.count for g in groups), len(own), shine))
+        lamps = [lamp for own in kinds.values() for lamp in own]
         if environment:
             groups.append(Group(type(environment), environment, len(lamps), 1))
         first_patch = sum(group.count for group in groups)
@@ -108,16 +111,16 @@ class Lights:
             tuple(groups),
             environment,
             first_patch,
-            _choice([*lamps, environment] if environment else lamps, emitters, frame, radius) if has_choice else OnlyLight(),
+            _choice(lamps, environment, emitters, frame, radius, camera) if has_choice else OnlyLight(),
             search_of(tuple(lamp for lamp in hittable if lamp.is_visible)),
             search_of(hittable),
             are_sampled and len(hittable) > MOST_ASKED,
             len(lamps),
         )
 
-    def with_glow(self, glow):
-        """The same lights, whose textured patches shine with `glow`."""
-        return replace(self, groups=tuple(group if group.glow is EVEN else replace(group, glow=glow) for group in self.groups))
+    def seen_from(self, camera):
+        """The same lights, whose textures know of another camera, a `CameraSpace`."""
+        return replace(self, groups=tuple(replace(group, glow=group.glow.seen_from(camera)) for group in self.groups))
 
     @property
     def is_empty(self):
@@ -176,26 +179,29 @@ class Lights:
         return wi, distance, E, pdf
 
 
-def _choice(lamps, emitters, frame, radius):
+def _choice(lamps, environment, emitters, frame, radius, camera):
     """How one of all lights is chosen; `radius` [m] is the scene's."""
-    if len(lamps) + emitters.count == 1:
+    lights = [*lamps, environment] if environment else lamps
+    if len(lights) + emitters.count == 1:
         return OnlyLight()
-    rows = [lamp.weight(frame) for lamp in lamps]
+    shares = [share_left(lamp, frame, camera, radius) if getattr(lamp, "shade", None) else 1.0 for lamp in lights]
+    rows = [light.weight(frame) for light in lights]
+    rows = [row | {"power": np.multiply(row["power"], share)} for row, share in zip(rows, shares)]
     weights = emitters.weights()
     if rows:
         of_lamps = vars(columns([row | {"power": np.dot(LUMINANCE, row["power"])} for row in rows], np.float64))
         weights = Columns(**{name: np.concatenate((of_lamps[name], column), axis=-1) for name, column in vars(weights).items()})
     if weights.power.size <= MOST_WEIGHED:
         return ByPlace.of(weights)
-    powers = [frame.scale**2 * np.dot(LUMINANCE, lamp.power(radius)) for lamp in lamps]
+    powers = [frame.scale**2 * np.dot(LUMINANCE, np.multiply(light.power(radius), share)) for light, share in zip(lights, shares)]
     return ByTree.of(np.concatenate((powers, emitters.power())), weights)
 
 
 def _hittable(lamps, groups, frame):
     """`Hittable` for each lamp with a size; `lamps` are in the order of `groups`."""
-    for group in groups:
+    for number, group in enumerate(groups):
         for i, lamp in enumerate(lamps[group.first : group.first + group.count]):
             if lamp.has_extent():
                 weight = lamp.weight(frame)
                 radius = math.sqrt(weight["radius2"]) if weight["nearness"] else math.inf
-                yield Hittable(group.light, group.k.take([i]), group.first + i, weight["centre"], radius, lamp.is_visible)
+                yield Hittable(group.light, group.k.take([i]), group.first + i, weight["centre"], radius, lamp.is_visible, number)

@@ -1,6 +1,6 @@
 """Textures looked up at surface points."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -169,7 +169,11 @@ def clean(value):
 
 
 class EvenGlow:
-    """No emitter is textured."""
+    """No emitter is textured, no light has a shade."""
+
+    def seen_from(self, camera):
+        """The same with another `CameraSpace`."""
+        return self
 
     def seen(self, L, points):
         """Radiance L (3, N) of emitters at `TexturePoints`, as it is there."""
@@ -199,6 +203,10 @@ class TexturedGlow:
     attributes: dict
     frame: object
     camera: object
+
+    def seen_from(self, camera):
+        """See `EvenGlow.seen_from`."""
+        return replace(self, camera=camera)
 
     def seen(self, L, points):
         """See `EvenGlow.seen`."""

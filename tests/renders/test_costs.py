@@ -17,10 +17,12 @@ from glanz.engine import (
     LambertTransmission,
     LayerWeight,
     Lens,
+    LightFalloff,
     Material,
     Medium,
     Mirror,
     PointLight,
+    Shade,
     Transparent,
     World,
     rendering,
@@ -109,6 +111,11 @@ def lit_by_a_picture():
     return h.replaced(plain(), world=World(environment=picture))
 
 
+def shaded():
+    (bulb,) = plain().lights
+    return h.replaced(plain(), lights=(h.replaced(bulb, shade=Shade(texture=LightFalloff(falloff="linear"))),))
+
+
 def textured():
     uvs = np.array([[[0, 1, 1, 0], [0, 0, 1, 1]]], np.float32)
     mesh = h.quad((0, 0, 0.2), (2, 0, 0), (0, 2, 0), name="card")
@@ -128,6 +135,7 @@ FEATURES = {
     "motion": (lambda: plain(motion=pushed()), {"wavefront/motion.py", "world/movers.py"}),
     "lens": (lambda: h.replaced(plain(), camera=h.replaced(plain().camera, lens=Lens(radius=0.1, focus_distance=4.0))), set()),
     "environment": (lit_by_a_picture, {"world/environment.py"}),
+    "light through a texture": (shaded, {"world/shades.py", "maths/light_frames.py"}),
     "texture": (textured, {"textures/image.py", "wavefront/texturing.py"}),
     "texture of the cosine": (lambda: wearing(Lambert(LayerWeight(0.5))), {"world/by_cosine.py"}),
 }

@@ -267,18 +267,6 @@ def test_a_mix_scales_textures():
     assert extremes(texture)[1] == pytest.approx((0.95,) * 3)
 
 
-def test_lights_do_not_read_textures():
-    light = blender.link("Light", bpy.data.lights.new("Light", "POINT"))
-    tree = blender.new_nodes(light.data)
-    shader = blender.add_node(tree, "ShaderNodeEmission", Color=(0.1, 0.2, 0.3, 1))
-    tree.links.new(shader.outputs[0], tree.nodes.new("ShaderNodeOutputLight").inputs["Surface"])
-    plain = blender.export()[0].lights[0].intensity
-    tree.links.new(tree.nodes.new("ShaderNodeTexNoise").outputs["Color"], shader.inputs["Color"])
-    scene, warnings = blender.export()
-    assert scene.lights[0].intensity == plain
-    assert len(warnings) == 1
-
-
 def test_worlds_are_textures_of_all_directions():
     tree = blender.set_world((0.1, 0.2, 0.3)).node_tree
     background = next(n for n in tree.nodes if n.type == "BACKGROUND")

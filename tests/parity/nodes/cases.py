@@ -37,8 +37,8 @@ ELSEWHERE = {
     "ShaderNodeOutputAOV": "an output",
     "ShaderNodeScript": "Open Shading Language is not read: it would run code of the file",
     "ShaderNodeTexPointDensity": "needs particles as voxels; gone in Blender 5",
-    "ShaderNodeTexIES": "of lights, not of surfaces",
-    "ShaderNodeLightFalloff": "of lights, not of surfaces",
+    "ShaderNodeTexIES": "of lights, where it is as in Cycles: LM-63 of types A, B and C; a file that cannot be read is named, and even",
+    "ShaderNodeLightFalloff": "of lights, where it is as in Cycles 5: suns have no falloff",
     "ShaderNodeTexSky": "of worlds; compared as such",
     "ShaderNodeTexEnvironment": "of worlds; compared as such",
     "ShaderNodeTexImage": "needs pictures; compared on its own: 98 % or more, in the colour spaces Filmic and AgX before Blender 5.2 93 %, "

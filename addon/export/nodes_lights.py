@@ -1,0 +1,46 @@
+"""Nodes that are made for lights."""
+
+import bpy
+
+from ...engine import FileError, Geometry, IesTexture, LightFalloff, VectorTransform, parse_ies
+
+LARGEST = 2**24
+"""Bytes of a file of a lamp maker that are read: some thousand times what these have."""
+_UNREAD = 100.0
+"""What Cycles takes for a file that it cannot read."""
+_FROM_LIGHT = VectorTransform(Geometry("incoming"), "normal", "world", "object")
+
+
+def _ies(reader, node, output):
+    strength = reader.value(node, "Strength", 1.0)
+    name, text = _text(node)
+    try:
+        if text is None:
+            raise FileError("there is no such text or file")
+        table = parse_ies(text)
+    except FileError as error:
+        reader.note(f"the IES file {name} is not read ({error}), so it is {_UNREAD:g} in all directions, as in Cycles")
+        table = {}
+        strength = strength * _UNREAD if isinstance(strength, float) else strength
+    return IesTexture(reader.vector(node, _FROM_LIGHT), strength, **table)
+
+
+def _text(node):
+    """(name in quotes, text or None) of what an IES Texture node shows."""
+    if node.mode == "INTERNAL":
+        text = node.ies
+        return (repr(text.name), text.as_string()) if text else ("''", None)
+    path = bpy.path.abspath(node.filepath, library=node.id_data.library)
+    try:
+        with open(path, "rb") as file:
+            # Names of makers are in any encoding, numbers in all the same.
+            return repr(node.filepath), file.read(LARGEST).decode("latin-1")
+    except (OSError, ValueError):
+        return repr(node.filepath), None
+
+
+def _light_falloff(reader, node, output):
+    return LightFalloff(reader.value(node, "Strength", 100.0), reader.value(node, "Smooth"), output.lower())
+
+
+TABLE = {"TEX_IES": _ies, "LIGHT_FALLOFF": _light_falloff}
