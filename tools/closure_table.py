@@ -21,9 +21,10 @@ HEAD = """# Shaders, compared with Cycles
 Cycles on the left, Glanz on the right: spheres under a sun and a grey world, in the order of the table, six in a row.
 
 The table has the directional albedo of each in a white furnace: what a sphere shows on the ring where the cosine between its normal
-and the view is in the range. All are of the colour (0.8, 0.6, 0.4), of which green is listed: Glanz / Cycles. The deviation is the
-largest over rings and channels. At most 3 % is asked of what is smooth or diffuse, 10 % of what is rough. Rough reflection and
-refraction are Phong's lobes, as wide as those of GGX and scaled to its directional albedo: see [lobes](lobes.md).
+and the view is in the range. All but copper are of the colour (0.8, 0.6, 0.4), of which green is listed: Glanz / Cycles. The
+deviation is the largest over rings and channels. At most 3 % is asked of what is smooth or diffuse, 10 % of what is rough. Rough
+reflection and refraction are Phong's lobes, as wide as those of GGX and scaled to its directional albedo; velvet is Sheen BSDF with
+the distribution of Ashikhmin; clay and cloth are Principled with Diffuse Roughness and Sheen: see [lobes](lobes.md).
 
 """
 
