@@ -110,4 +110,5 @@ def _own_value(socket, default):
     value = getattr(socket, "default_value", default)
     if isinstance(value, (bool, int, float)):
         return float(value)
-    return tuple(float(c) for c in value)[:3]
+    # Without the alpha of a colour; a vector of two numbers has no third.
+    return (*(float(c) for c in value), 0.0)[:3]

@@ -38,6 +38,18 @@ def test_tiles_are_those_of_cycles(output, tmp_path):
     assert not {replace(c, kind="").mode: round(share, 3) for c, share in found.items() if share < 0.99}
 
 
+def test_a_tiling_that_nothing_feeds_is_that_of_its_own_vector(tmp_path):
+    """Which has but two numbers."""
+
+    def unfed(tree, case):
+        node = tree.nodes.new(KIND)
+        node.inputs["Vector"].default_value = (0.3, -0.9)
+        return next(s for s in node.outputs if s.identifier == case.output)
+
+    found = grid.shares([cases.Case(KIND, output, 1, {}) for output in OUTPUTS], tmp_path, build=unfed)
+    assert set(found.values()) == {1.0}
+
+
 def test_the_comparison_catches_corners_that_end_elsewhere(tmp_path, monkeypatch):
     monkeypatch.setattr(tiling, "_bend", lambda half, roundness: roundness * half)
     with pytest.raises(AssertionError):
