@@ -11,6 +11,7 @@ from glanz.engine import ImageTexture
 from glanz.engine.scene.graphs import with_inner
 from glanz.tests.addon import blender
 from glanz.tests.addon.export.test_textures import exported, textured
+from glanz.tests.addon.sky import set_sky
 
 
 def save(path, grey, space="sRGB"):
@@ -87,6 +88,19 @@ def test_a_sequence_or_movie_shows_the_frame_that_cycles_shows(tmp_path, make, f
     assert (texture.bitmap.pixels[:3] == 10 * expected).all()
     # Read apart from the open file.
     assert len(bpy.data.images) == count
+
+
+@pytest.mark.parametrize("make", [sequence, movie])
+def test_a_world_shows_the_same_frame(tmp_path, make):
+    image = make(tmp_path)
+    node = set_sky(image)
+    for name, value in {"frame_duration": 4, "frame_start": 2, "frame_offset": 0}.items():
+        setattr(node.image_user, name, value)
+    bpy.context.scene.frame_set(4)
+    scene, warnings = blender.export()
+    assert warnings == ()
+    code = 30 / 255
+    np.testing.assert_allclose(scene.world.environment.pixels[:, 0, 0], ((code + 0.055) / 1.055) ** 2.4, rtol=1e-3)
 
 
 def test_a_frame_that_is_missing_is_magenta_and_named(tmp_path):
