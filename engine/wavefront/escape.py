@@ -69,7 +69,7 @@ def _lamps(plan, rays, near, hits):
             continue
         lanes_met = met if asked is None else asked.take(met)
         L = np.broadcast_to(L, (3, t.size)).take(met, axis=1) * rays.beta.take(lanes_met, axis=1)
-        L = lights.groups[lamp.group].glow.lit(L, lamp.k, rays.o.take(lanes_met, axis=1), rays.d.take(lanes_met, axis=1), t.take(met))
+        L = lights.groups[lamp.group].glow.met(L, lamp.k, rays, lanes_met, t.take(met))
         if rays.depth:
             chosen = lights.chance(np.full(met.size, lamp.index), rays, lanes_met)
             light_pdf = np.broadcast_to(pdf, t.shape).take(met) * chosen

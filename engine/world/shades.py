@@ -159,6 +159,10 @@ class ShadedGlow:
                 E[:, lanes] *= clean(at.value(texture))
         return E
 
+    def met(self, L, k, rays, lanes, t):
+        """See `EvenGlow.met`."""
+        return self.lit(L, k, rays.o.take(lanes, axis=1), rays.d.take(lanes, axis=1), t)
+
 
 def share_left(lamp, frame, camera, radius):
     """The share (3,) of the light of `lamp` that its shade leaves, on average over places all around it at `radius` [m]. Never black."""

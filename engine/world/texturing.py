@@ -183,6 +183,10 @@ class EvenGlow:
         """Irradiance E (3, N) at p from a point of each light, in the directions wi (3, N), as it is from there; `k` are its rows."""
         return E
 
+    def met(self, L, k, rays, lanes, t):
+        """Radiance L (3, M) of the light `k` where the `lanes` (M,) of rays meet it at t (M,), as it is there."""
+        return L
+
 
 EVEN = EvenGlow()
 
