@@ -26,26 +26,38 @@ def words(mode):
     return mode.lower().replace("_", " ")
 
 
-DEEPEST = 128
-"""Nodes in a row, from the output on, that are followed: what is read and rendered one within the other needs a stack."""
+DEEPEST = 1000
+"""Nodes in a row, from the output on, that are followed."""
 
 
 class Links:
     """Follows the links of one node tree and of the groups in it, and notes what is odd about them.
+
+    Blender looks through all links of a tree for those of a socket, so that they are looked through once for all.
 
     owner   who is named in notes, such as "material 'Wood'"
     groups  the group nodes entered, outermost first
     trail   the nodes passed on the way from the output, each with the groups it is in
     """
 
-    def __init__(self, owner, findings, groups=(), trail=()):
+    def __init__(self, owner, findings, groups=(), trail=(), links=None):
         self.owner = owner
         self.findings = findings
         self.groups = groups
         self.trail = trail
+        self._links = {} if links is None else links
 
     def _elsewhere(self, groups, trail):
-        return type(self)(self.owner, self.findings, groups, trail)
+        return type(self)(self.owner, self.findings, groups, trail, self._links)
+
+    def _link(self, socket):
+        """The first link into an input `socket` that is not muted, or None."""
+        tree = socket.id_data
+        key = tree.as_pointer()
+        if key not in self._links:
+            # The first of several counts.
+            self._links[key] = {link.to_socket.as_pointer(): link for link in [*tree.links][::-1] if not link.is_muted}
+        return self._links[key].get(socket.as_pointer())
 
     def beyond(self, node):
         """A reader for what feeds `node`, or None, with a note, where that leads back to `node` itself, or too deep."""
@@ -67,7 +79,7 @@ class Links:
         is the last input on the way, whose own value counts where nothing feeds it.
         """
         reader = self
-        while link := next((link for link in socket.links if not link.is_muted), None):
+        while link := reader._link(socket):
             beyond = reader.beyond(link.from_node)
             if beyond is None:
                 return reader, socket, None

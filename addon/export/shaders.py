@@ -29,9 +29,9 @@ def _behind(reader, socket):
     reader, _, output = reader.source(socket)
     if output is None:
         return Closure()
-    node = output.node
+    node, inside = output.node, reader.beyond(output.node)
     read = _TABLE.get(node.type, _approximated)
-    return reader.once(output, lambda: read(reader.beyond(node), node))
+    return reader.once(output, lambda: read(inside, node)) if inside else Closure()
 
 
 def _approximated(reader, node):

@@ -18,25 +18,54 @@ TABLE = {
 }
 """Node type -> function (reader, node, identifier of the output) -> value, in the kind of the output's socket."""
 _TRIPLES = ("RGBA", "VECTOR")
+_AT_ONCE = 24
+"""Nodes, one within the other, that are read on Python's stack, which holds 1,000 frames: each takes up to twelve."""
+MOST = 10_000
+"""Nodes that are read for a material, those of groups each time that the group is used: groups in groups may be countless."""
+
+
+class _Later(Exception):
+    """What is to be read first, the arguments of `_Known.read`."""
+
+
+class _Known:
+    """What has been worked out: {(groups, node, output): value}; and how many nodes are being read, one within the other."""
+
+    def __init__(self):
+        self.values, self.depth = {}, 0
+
+    def read(self, key, make):
+        self.depth += 1
+        try:
+            self.values[key] = make()
+        finally:
+            self.depth -= 1
 
 
 class Reader(Links):
     """Reads the values of sockets: a number, three numbers, a texture, or `Coordinates`, which stand for vectors.
 
     bitmaps  the images of textures; None: whoever asks has no points to look textures up at
-    known    {(groups, node, output): value}: what feeds several sockets is worked out once and is one value for all
+    known    the `_Known` of the whole material: what feeds several sockets is worked out once and is one value for all
     """
 
-    def __init__(self, owner, findings, bitmaps=None, groups=(), trail=(), known=None):
-        super().__init__(owner, findings, groups, trail)
+    def __init__(self, owner, findings, bitmaps=None, groups=(), trail=(), links=None, known=None):
+        super().__init__(owner, findings, groups, trail, links)
         self.has_points = bitmaps is not None
         self.bitmaps = bitmaps if self.has_points else Bitmaps(findings)
-        self._known = {} if known is None else known
+        self._known = known or _Known()
 
     def _elsewhere(self, groups, trail):
-        reader = Reader(self.owner, self.findings, self.bitmaps, groups, trail, self._known)
+        reader = Reader(self.owner, self.findings, self.bitmaps, groups, trail, self._links, self._known)
         reader.has_points = self.has_points
         return reader
+
+    def beyond(self, node):
+        """See `Links.beyond`."""
+        if len(self._known.values) >= MOST:
+            self.note(f"its nodes are more than {MOST}, those of groups counted each time: '{node.name}' and others are cut off")
+            return None
+        return super().beyond(node)
 
     def value(self, node, identifier, default=0.0):
         """The value of an input in the kind of its socket; `default` where this version of Blender has no such input."""
@@ -90,11 +119,25 @@ class Reader(Links):
         return self.once(output, make)
 
     def once(self, output, make):
-        """What `make`() returns, called the first time only that this output is asked for in these groups."""
+        """What `make`() returns for an output in these groups, worked out once.
+
+        What is too deep for the stack is worked out first, by itself; then what has asked for it starts anew.
+        """
         key = (tuple(group.as_pointer() for group in self.groups), output.node.as_pointer(), output.identifier)
-        if key not in self._known:
-            self._known[key] = make()
-        return self._known[key]
+        known, waiting = self._known, [(key, make)]
+        if known.depth == _AT_ONCE and key not in known.values:
+            raise _Later(key, make)
+        while waiting:
+            if waiting[-1][0] in known.values:
+                waiting.pop()
+                continue
+            try:
+                known.read(*waiting[-1])
+            except _Later as later:
+                if known.depth:
+                    raise
+                waiting.append(later.args)
+        return known.values[key]
 
 
 def _as_kind(value, source, target):

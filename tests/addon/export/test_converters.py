@@ -1,5 +1,6 @@
 """Nodes that compute become textures only where something varies, and are read only where they count."""
 
+import bpy
 import numpy as np
 import pytest
 
@@ -103,3 +104,9 @@ def test_a_mix_of_old_files_is_that_of_new_ones(graph):
 def test_what_is_not_read_is_named(graph):
     _, warnings = graph.exported(graph.add("Squeeze", graph.add("TexNoise")))
     assert any("Squeeze" in line and "'Glow'" in line for line in warnings)
+
+
+@pytest.mark.skipif(not hasattr(bpy.types, "ShaderNodeRadialTiling"), reason="before Blender 5.0 no vector has two numbers")
+def test_vectors_of_two_numbers_lie_in_the_plane(graph):
+    found, warnings = graph.exported(graph.add("RadialTiling"))
+    assert warnings == () and found == pytest.approx((0, -1, 0))
