@@ -30,10 +30,19 @@ class Registry(dict):
         return self
 
 
+class GraphRegistry(Registry):
+    """Of plug-ins that are made of others of their kind."""
+
+    def add(self, plugin):
+        """See `Registry.add`; they are shown by their labels alone, as what they share would be written wherever it is used."""
+        plugin.__repr__ = lambda self: f"<{self.label}>"
+        return super().add(plugin)
+
+
 BSDFS = Registry("BSDF")
 LIGHTS = Registry("light")
 CAMERAS = Registry("camera")
-TEXTURES = Registry("texture")
+TEXTURES = GraphRegistry("texture")
 SAMPLERS = Registry("sampler")
 FILTERS = Registry("pixel filter")
 INTEGRATORS = Registry("integrator")

@@ -8,6 +8,7 @@ import numpy as np
 from ..errors import FileError, GlanzError
 from ..registry import BSDFS, CAMERAS, LIGHTS, TEXTURES
 from ..scene import Bitmap, Coordinates, EnvironmentMap, Lens, Material, Medium, Mesh, MeshAttribute, Object, Scene, Settings, Shade, World
+from ..scene.graphs import is_texture, with_inner
 from ..textures.bump_map import BumpMap
 from ..textures.linear import LinearTexture
 from ..textures.normal_map import NormalMap
@@ -43,7 +44,7 @@ class Encoder:
         self._arrays = arrays
         self._names = {cls: name for name, cls in types().items()}
         self._numbers = {}
-        self._kept = []
+        self._kept, self._textures = [], set()
 
     def encode(self, value):
         """The JSON for `value`; raises TypeError for a type that is not known."""
@@ -64,10 +65,14 @@ class Encoder:
 
     def _number(self, value):
         if id(value) not in self._numbers:
-            self._kept.append(value)
-            record = self._record(value)
-            self._numbers[id(value)] = len(self.shared)
-            self.shared.append(record)
+            # What textures are made of first: they may be deeper than Python's stack.
+            parts = with_inner(value, self._textures) if is_texture(value) else (value,)
+            self._textures.update(filter(is_texture, parts))
+            for part in parts:
+                self._kept.append(part)
+                record = self._record(part)
+                self._numbers[id(part)] = len(self.shared)
+                self.shared.append(record)
         return self._numbers[id(value)]
 
     def _record(self, value):
@@ -84,9 +89,12 @@ class Decoder:
         self._shared = []
         if not isinstance(shared, list):
             raise FileError("its list of shared values is not a list")
-        for record in shared:
+        for number, record in enumerate(shared):
             # One after the other: a shared value can refer to those before it only, so there are no circles.
-            self._shared.append(self.decode(record))
+            try:
+                self._shared.append(self.decode(record))
+            except GlanzError as error:
+                raise FileError(f"its shared value {number}: {error}") from error
 
     def decode(self, content, expected=None):
         """The value of JSON `content`; `expected` is the name of the only type allowed."""

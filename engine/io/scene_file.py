@@ -60,6 +60,8 @@ def read_scene(path):
         raise FileError(f"cannot read '{path}': {error}") from error
     except OSError as error:
         raise FileError(f"cannot read '{path}': {cause(error)}") from error
+    except RecursionError as error:
+        raise FileError(f"cannot read '{path}': its values stand in each other too deep, which shared values need not") from error
     except DAMAGED as error:
         raise FileError(f"cannot read '{path}': it is not a Glanz scene, or damaged ({type(error).__name__}: {error})") from error
 

@@ -37,5 +37,6 @@ class EnvironmentTexture:
         _, height, width = self.picture.pixels.shape
         pixels = self.picture.pixels.reshape(3, -1)
         taps = _TEXELS[self.picture.interpolation](*direction_to_square(d), (height, width))
-        value = sum(pixels.take(row * width + column, axis=1) * weight for row, column, weight in taps)
+        # What is no direction has some texel.
+        value = sum(pixels.take(row * width + column, axis=1, mode="clip") * weight for row, column, weight in taps)
         return value * np.array(self.picture.strength, np.float32)[:, None]

@@ -1,7 +1,7 @@
 """The sky by day."""
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 
@@ -179,6 +179,8 @@ def _interpolated(table, row, column):
     row, column = (np.clip(a, 0, n - 1) for a, n in ((row, height), (column, width)))
     i, j = (np.minimum(a.astype(np.intp), n - 2) for a, n in ((row, height), (column, width)))
     a, b = (row - i).astype(np.float32), (column - j).astype(np.float32)
-    pixels, at = table.reshape(3, -1), i * width + j
-    lower, upper = ((1 - b) * pixels.take(at + k, axis=1) + b * pixels.take(at + k + 1, axis=1) for k in (0, width))
+    at = i * width + j
+    # What is no place has some entry.
+    taken = partial(table.reshape(3, -1).take, axis=1, mode="clip")
+    lower, upper = ((1 - b) * taken(at + k) + b * taken(at + k + 1) for k in (0, width))
     return np.maximum((1 - a) * lower + a * upper, 0)

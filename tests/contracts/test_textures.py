@@ -191,7 +191,7 @@ def test_values_are_finite_near_and_far(value, size):
 def test_inputs_may_be_any_numbers(plugin, wild):
     """What comes out may be no number, but comes out."""
     for field in dataclasses.fields(plugin):
-        if field.type is object and isinstance(field.default, (float, tuple)):
+        if field.type is object and isinstance(field.default, (float, tuple, Coordinates)):
             value = plugin(**{field.name: wild if isinstance(field.default, float) else (wild,) * 3})
             with np.errstate(all="ignore"):
                 assert value.eval(Points(somewhere(n=16))).dtype == np.float32
