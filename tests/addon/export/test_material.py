@@ -234,11 +234,11 @@ def test_textures_that_are_not_read_are_named_and_the_sockets_own_value_is_used(
     material = blender.new_material("Wood", "ShaderNodeBsdfDiffuse", Color=(0.1, 0.2, 0.3, 1))
     tree = material.node_tree
     diffuse = next(node for node in tree.nodes if node.type == "BSDF_DIFFUSE")
-    tree.links.new(tree.nodes.new("ShaderNodeTexIES").outputs["Fac"], diffuse.inputs["Color"])
+    tree.links.new(tree.nodes.new("ShaderNodeShaderToRGB").outputs["Color"], diffuse.inputs["Color"])
     exported, warnings = _exported(material)
     assert exported.lobes[0].reflectance == pytest.approx((0.1, 0.2, 0.3))
     assert len(warnings) == 1
-    assert "IES Texture" in warnings[0]
+    assert "Shader to RGB" in warnings[0]
     assert "material 'Wood'" in warnings[0]
 
 
