@@ -55,6 +55,8 @@ class Bsdf(Lobe, Protocol):
     `eval` says nothing of wi on the side that is not the lobe's, where callers take f as 0. A transmitting lobe is that
     of a thin sheet: on both of its sides is the same medium.
 
+    One whose value and density have most of their work in common also has eval_and_pdf(k, n, wo, wi), both to the bit.
+
     is_reciprocal  f is the same with wo and wi exchanged
     is_diffuse     what it scatters is called diffuse, not glossy, where textures ask
     """

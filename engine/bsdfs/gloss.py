@@ -38,11 +38,16 @@ class Gloss(Highlight):
 
     @staticmethod
     def eval(k, n, wo, wi):
-        (axis, power), a2 = _lobe(k.exponent, n, wo), alpha2_of_exponent(k.exponent)
+        return Gloss.eval_and_pdf(k, n, wo, wi)[0]
+
+    @staticmethod
+    def eval_and_pdf(k, n, wo, wi):
+        """See `interfaces.Bsdf`."""
+        pdf, a2 = Gloss.pdf(k, n, wo, wi), alpha2_of_exponent(k.exponent)
         # S / cos, which has a limit at the horizon.
         cos = np.abs(dot(n, wi))
         masked = 2 / (cos + np.sqrt(a2 + (1 - a2) * cos * cos))
-        return k.reflectance * (sample_lobe_pdf(axis, wi, power) * masked / (_left(k.exponent, np.abs(dot(n, wo))) * _MARGIN))
+        return k.reflectance * (pdf * masked / (_left(k.exponent, np.abs(dot(n, wo))) * _MARGIN)), pdf
 
     @staticmethod
     def illuminate(k, n, wo, wi):
@@ -61,8 +66,14 @@ class Gloss(Highlight):
 
 def _lobe(exponent, n, wo):
     """The axis (3, N), unit, and the power (N,) of the cosine to it."""
-    axis = n + np.minimum(exponent, 1) * (reflect(wo, n) - n)
-    return axis / length(axis), np.maximum(exponent, 1)
+    axis = reflect(wo, n)
+    exponents = np.broadcast_to(exponent, axis.shape[1:])
+    wide = np.nonzero(exponents < 1)[0]
+    if wide.size:
+        up = np.broadcast_to(n, axis.shape).take(wide, axis=1)
+        turned = up + exponents.take(wide) * (axis.take(wide, axis=1) - up)
+        axis[:, wide] = turned / length(turned)
+    return axis, np.maximum(exponent, 1)
 
 
 @lru_cache(maxsize=1)

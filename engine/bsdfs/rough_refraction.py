@@ -64,9 +64,15 @@ class RoughRefraction:
 
     @staticmethod
     def eval(k, n, wo, wi):
+        return RoughRefraction.eval_and_pdf(k, n, wo, wi)[0]
+
+    @staticmethod
+    def eval_and_pdf(k, n, wo, wi):
+        """See `interfaces.Bsdf`."""
         t, cos = _axis(k, n, wo), np.abs(dot(n, wi))
-        folded = sample_lobe_pdf(t, wi, k.exponent) + sample_lobe_pdf(reflect(-t, n), wi, k.exponent)
-        return k.transmittance * (folded * k.etendue / (k.eta * k.eta * np.maximum(cos, np.finfo(cos.dtype).tiny)))
+        pdf = sample_lobe_pdf(t, wi, k.exponent)
+        folded = pdf + sample_lobe_pdf(reflect(-t, n), wi, k.exponent)
+        return k.transmittance * (folded * k.etendue / (k.eta * k.eta * np.maximum(cos, np.finfo(cos.dtype).tiny))), pdf
 
     @staticmethod
     def illuminate(k, n, wo, wi):

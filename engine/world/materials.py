@@ -169,11 +169,12 @@ class Reflection:
 
     def eval(self, n, wo, wi):
         """f [sr^-1], (3, N), and pdf [sr^-1], (N,), of wi, by the rough lobes."""
-        pdf = 0
+        f, pdf = 0, 0
         for lobe, share in zip(self.rough, self.shares):
-            density = lobe.bsdf.pdf(lobe.k, n, wo, wi)
+            value, density = _eval_and_pdf(lobe.bsdf, lobe.k, n, wo, wi)
+            f = f + self._on_its_side(lobe, value, n, wi)
             pdf = pdf + (density if len(self.shares) == 1 else density * share)
-        return self._added("eval", n, wo, wi), pdf
+        return f, pdf
 
     def illuminate(self, n, wo, wi):
         """The terms of the lecture's illumination model, (3, N), by the rough lobes."""
@@ -251,12 +252,19 @@ class Reflection:
         return self._added("eval", n, wo, wi)
 
     def _added(self, term, n, wo, wi):
-        return sum(getattr(lobe.bsdf, term)(lobe.k, n, wo, wi) for lobe in self.rough)
+        found = ((lobe, getattr(lobe.bsdf, term)(lobe.k, n, wo, wi)) for lobe in self.rough)
+        return sum(self._on_its_side(lobe, value, n, wi) for lobe, value in found)
+
+    def _on_its_side(self, lobe, value, n, wi):
+        """The `value` (3, N) of a lobe where it counts, 0 elsewhere."""
+        return value
 
     def _sample_rough(self, n, wo, u1, u2):
-        first = self.rough[0]
-        wi = first.bsdf.sample(first.k, n, wo, u2)
-        for i, lobe in enumerate(self.rough[1:], start=1):
+        if not len(self.thresholds):
+            (only,) = self.rough
+            return only.bsdf.sample(only.k, n, wo, u2)
+        wi = np.zeros_like(wo)
+        for i, lobe in enumerate(self.rough):
             lanes = self._chosen(i, u1, u2)
             wi[:, lanes] = lobe.bsdf.sample(lobe.k.pick(lanes), n.take(lanes, axis=1), wo.take(lanes, axis=1), u2.take(lanes, axis=1))
         return wi
@@ -293,9 +301,8 @@ class TwoSided(Reflection):
         cos = dot(surface.ns, wi)
         return np.abs(cos) * (cos * dot(surface.n, wi) > 0)
 
-    def _added(self, term, n, wo, wi):
-        is_behind = dot(n, wi) < 0
-        return sum(getattr(lobe.bsdf, term)(lobe.k, n, wo, wi) * (is_behind == lobe.bsdf.transmits) for lobe in self.rough)
+    def _on_its_side(self, lobe, value, n, wi):
+        return value * ((dot(n, wi) < 0) == lobe.bsdf.transmits)
 
     @staticmethod
     def _sample_uniformly(n, u2):
@@ -304,6 +311,12 @@ class TwoSided(Reflection):
         is_behind = twice >= 1
         w = to_world(n, square_to_uniform_hemisphere(np.stack((twice - is_behind, u2[1]))))
         return np.where(is_behind, -w, w)
+
+
+def _eval_and_pdf(bsdf, k, n, wo, wi):
+    """`Bsdf.eval` and `Bsdf.pdf` at once."""
+    both = getattr(bsdf, "eval_and_pdf", None)
+    return both(k, n, wo, wi) if both else (bsdf.eval(k, n, wo, wi), bsdf.pdf(k, n, wo, wi))
 
 
 def _with_index(lobe, find, n):

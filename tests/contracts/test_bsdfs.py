@@ -93,6 +93,15 @@ def test_no_more_light_leaves_than_albedo_says(value):
     check_no_more_leaves_than_albedo_says(value)
 
 
+@pytest.mark.parametrize("value", [v for v in ALL if hasattr(v, "eval_and_pdf")], ids=lambda v: f"{v.key}-{v.exponent}")
+def test_value_and_density_at_once_are_those_one_by_one(value):
+    k, n, wo = h.table(value.row(), np.float32), NORMAL.astype(np.float32), viewer(ANGLES[1], np.float32)
+    wi = h.directions(1, 256, np.float32)
+    n, wo = np.repeat(n, 256, axis=1), np.repeat(wo, 256, axis=1)
+    f, pdf = value.eval_and_pdf(k, n, wo, wi)
+    assert h.same_bits(f, value.eval(k, n, wo, wi)) and h.same_bits(pdf, value.pdf(k, n, wo, wi))
+
+
 @each
 def test_dtype_is_kept(value):
     check_dtype_is_kept(value)

@@ -215,7 +215,7 @@ def test_a_power_of_two_as_scale_changes_no_bit(k):
 
 
 def test_paper_catches_light_that_counts_on_the_wrong_side(monkeypatch):
-    monkeypatch.setattr(TwoSided, "_added", Reflection._added)
+    monkeypatch.setattr(TwoSided, "_on_its_side", Reflection._on_its_side)
     with pytest.raises(AssertionError):
         test_a_leaf_shows_the_light_of_both_sides()
 
