@@ -184,6 +184,8 @@ def compile_world(
     attributes, lost = compile_attributes(parts, keep, material, table.wanted, scene.objects, owner[keep])
     camera = CameraSpace.of(scene.camera, frame)
     glow = TexturedGlow(table.glowing, triangles, attributes, frame, camera) if table.glowing else EVEN
+    lights = Lights.of(scene.lights, environment, emitters, frame, radius, has_choice, samples_lights, glow, camera)
+    dark = (f"light '{name}' seems to be dark: its texture was black, below 0 or no number wherever looked at" for name in lights.dark)
     return CompiledWorld(
         frame=frame,
         accel=accel,
@@ -191,7 +193,7 @@ def compile_world(
         triangles=triangles,
         materials=table,
         by_cosine=by_cosine,
-        lights=Lights.of(scene.lights, environment, emitters, frame, radius, has_choice, samples_lights, glow, camera),
+        lights=lights,
         emitters=emitters,
         background=np.array((0.0, 0.0, 0.0) if environment else scene.world.radiance, np.float32)[:, None],
         media=Media.of(bodies, row, material, owner[keep], frame.scale) if has_media else None,
@@ -199,7 +201,7 @@ def compile_world(
         attributes=attributes,
         glow=glow,
         camera=camera,
-        warnings=(*warnings, *lost),
+        warnings=(*warnings, *lost, *dark),
     )
 
 

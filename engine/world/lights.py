@@ -15,6 +15,8 @@ from .light_tree_choice import ByTree
 from .shades import ShadedGlow, share_left
 from .texturing import EVEN
 
+LEAST = 2.0**-10
+"""The smallest share of its light by which a shaded light is chosen: what is dark where it was looked at may shine elsewhere."""
 MOST_WEIGHED = 32
 """Up to so many lights are all weighed against each other at every point; of more, groups are."""
 
@@ -67,6 +69,7 @@ class Lights:
     choice       how one of them is chosen, see `light_choice`
     visible      the lamps that camera rays see, to be searched by `lamp_search`
     hittable     the lamps that scattered rays meet: all that have a size
+    dark         the names of lights whose shades seem to leave nothing
     few_sharp    rays of a density below SHARP do not look for lamps, the first `lamps` of all lights
     """
 
@@ -78,6 +81,7 @@ class Lights:
     hittable: object
     few_sharp: bool = False
     lamps: int = 0
+    dark: tuple = ()
 
     @classmethod
     def of(cls, lamps, environment, emitters, frame, radius, has_choice=True, are_sampled=True, glow=EVEN, camera=None):
@@ -95,6 +99,7 @@ class Lights:
             k, shine = ShadedGlow.of(own, frame, camera) if is_shaded else (columns([lamp.row(frame) for lamp in own]), EVEN)
             groups.append(Group(kind, k, sum(g.count for g in groups), len(own), shine))
         lamps = [lamp for own in kinds.values() for lamp in own]
+        shares = [share_left(lamp, frame, camera, radius) if lamp.shade else np.ones(3) for lamp in lamps]
         if environment:
             groups.append(Group(type(environment), environment, len(lamps), 1))
         first_patch = sum(group.count for group in groups)
@@ -111,11 +116,12 @@ class Lights:
             tuple(groups),
             environment,
             first_patch,
-            _choice(lamps, environment, emitters, frame, radius, camera) if has_choice else OnlyLight(),
+            _choice(lamps, shares, environment, emitters, frame, radius) if has_choice else OnlyLight(),
             search_of(tuple(lamp for lamp in hittable if lamp.is_visible)),
             search_of(hittable),
             are_sampled and len(hittable) > MOST_ASKED,
             len(lamps),
+            tuple(lamp.name for lamp, share in zip(lamps, shares) if not share.any()),
         )
 
     def seen_from(self, camera):
@@ -179,12 +185,12 @@ class Lights:
         return wi, distance, E, pdf
 
 
-def _choice(lamps, environment, emitters, frame, radius, camera):
-    """How one of all lights is chosen; `radius` [m] is the scene's."""
+def _choice(lamps, shares, environment, emitters, frame, radius):
+    """How one of all lights is chosen; `shares` (3,) are what shades leave of the lamps, `radius` [m] is the scene's."""
     lights = [*lamps, environment] if environment else lamps
     if len(lights) + emitters.count == 1:
         return OnlyLight()
-    shares = [share_left(lamp, frame, camera, radius) if getattr(lamp, "shade", None) else 1.0 for lamp in lights]
+    shares = [*(np.maximum(share, LEAST) for share in shares), 1.0]
     rows = [light.weight(frame) for light in lights]
     rows = [row | {"power": np.multiply(row["power"], share)} for row, share in zip(rows, shares)]
     weights = emitters.weights()

@@ -6,16 +6,16 @@ from types import SimpleNamespace
 import numpy as np
 
 from ..arrays import columns
+from ..maths.frames import to_world
 from ..maths.light_frames import to_light
 from ..maths.vectors import dot
+from ..maths.warps import square_to_cone
 from ..scene.points import OnPlane
 from .texturing import clean
 
 _FARTHEST = np.finfo(np.float32).max
 _RECEIVERS = 512
-"""Places all around a light at which its shade is averaged."""
-_LEAST = 2.0**-10
-"""The smallest share of its light by which a shaded light is chosen: what is dark at those places may shine at others."""
+"""Places around a light at which its shade is averaged."""
 _STEPS = 1.1673039782614187 ** -np.arange(1.0, 5.0)
 """Powers of 1 / g with g^5 = g + 1: what is left of their multiples below 1 covers the hypercube evenly (Roberts 2018)."""
 
@@ -165,16 +165,17 @@ class ShadedGlow:
 
 
 def share_left(lamp, frame, camera, radius):
-    """The share (3,) of the light of `lamp` that its shade leaves, on average over places all around it at `radius` [m]. Never black."""
+    """The share (3,) of the light of `lamp` that its shade leaves, on average over places at `radius` [m] at which it shines."""
     k, glow = ShadedGlow.of([lamp], frame, camera)
     u = np.mod(0.5 + _STEPS[:, None] * np.arange(1, _RECEIVERS + 1), 1).astype(np.float32)
-    z, phi = 2 * u[2] - 1, np.float32(2 * np.pi) * u[3]
-    flat = np.sqrt(np.maximum(1 - z * z, 0))
-    p = k.origin + np.float32(radius * frame.scale) * np.stack((flat * np.cos(phi), flat * np.sin(phi), z))
+    reach = lamp.weight(frame)
+    axis = np.array(reach["axis"], np.float32)[:, None]
+    away = to_world(axis if axis.any() else np.float32([[0], [0], [1]]), square_to_cone(u[2:], np.float32(1 - reach["cos_edge"])))
+    p = k.origin + np.float32(radius * frame.scale) * away
     with np.errstate(all="ignore"):
         wi, distance, E, _ = lamp.sample(k, p, u[:2])
         before = np.broadcast_to(np.where(np.isfinite(E), E, 0), p.shape)
         after = glow.lit(before, k, p, wi, distance)
         share = after.sum(axis=1, dtype=np.float64) / before.sum(axis=1, dtype=np.float64)
-    share = np.where((share >= 0) & (share < np.inf), share, 0)
-    return np.maximum(share, _LEAST)
+    # Where it does not shine at all nothing is known of its shade.
+    return np.where((share >= 0) & (share < np.inf), share, 0) if before.any() else np.ones(3)

@@ -27,6 +27,7 @@ from glanz.engine import (
 from glanz.engine.lights import area
 from glanz.engine.registry import TEXTURES
 from glanz.engine.scene.validate import validate
+from glanz.engine.world.shades import share_left
 from glanz.tests import helpers as h
 
 TURNED = h.affine(h.rotation(4), (0.3, -0.2, 0.9))
@@ -189,8 +190,24 @@ def test_lights_are_chosen_by_what_their_shades_leave():
     chance = world.lights.choice.probability(np.array([0, 1]), np.repeat(p, 2, axis=1), None)
     assert chance[1] / chance[0] == pytest.approx(0.01, rel=0.05)
     lamps[1] = shaded(lamps[1], LightFalloff(0.0))
-    black = world_of(*lamps).lights.choice.probability(np.array([0, 1]), np.repeat(p, 2, axis=1), None)
+    world = world_of(*lamps)
+    black = world.lights.choice.probability(np.array([0, 1]), np.repeat(p, 2, axis=1), None)
     assert 0 < black[1] < chance[1]
+
+
+@pytest.mark.parametrize("value", [0.0, -1.0, math.nan])
+def test_a_light_that_is_dark_through_its_texture_is_told_by_its_name(value):
+    dark = LinearTexture((NoiseTexture(OBJECT),), (value,))
+    narrow = SpotLight(name="Key", angle=0.01, intensity=(1.0, 0.0, 0.0))
+    (warning,) = world_of(shaded(SpotLight(name="Gobo"), dark), shaded(narrow, UV_COLOUR)).warnings
+    assert "light 'Gobo'" in warning
+
+
+def test_the_share_of_a_narrow_beam_is_that_within_it():
+    """A gobo that is red to the right: half of it; the other channels are 0."""
+    lamp = shaded(SpotLight(world_from_light=TURNED, angle=0.02, blend=0.0), UV_COLOUR)
+    world = world_of(lamp)
+    np.testing.assert_allclose(share_left(lamp, world.frame, world.camera, 9.0), (0.5, 0.5, 0.0), atol=0.01)
 
 
 @pytest.mark.parametrize("value", [-1.0, math.nan, math.inf])
