@@ -71,8 +71,7 @@ test-matrix:
 	@$(PYTHON) tools/test_matrix.py
 
 desktop-test: $(READY)
-	@$(RUN) tools/build_extension.py $$($(RUN) tests/desktop/run.py --platform)
-	@$(RUN) tests/desktop/run.py $(SCRIPTS)
+	@platform=$$($(RUN) tests/desktop/run.py --platform) && $(RUN) tools/build_extension.py $$platform && $(RUN) tests/desktop/run.py $(SCRIPTS)
 
 test-thorough: $(READY)
 	GLANZ_SEED=$${GLANZ_SEED:-$$(date +%s)} $(RUN) -m pytest -m thorough

@@ -187,9 +187,12 @@ def end(process):
 if __name__ == "__main__":
     # Also as a script of Blender's, whose own arguments end with "--".
     words = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else sys.argv[1:]
-    if words == ["--platform"]:
-        sys.exit(print(PLATFORM))
     try:
+        if words == ["--platform"]:
+            # Asked before the zip is built, which takes a while, and needs neither.
+            find_blender()
+            check_display()
+            sys.exit(print(PLATFORM))
         sys.exit(main(words))
     except Failure as failure:
         sys.exit(f"desktop-test: {failure}")
