@@ -140,6 +140,14 @@ class Changes:
             text.extrude = 0.1
             _link("Text", text)
 
+    def do_add_instances(self):
+        if len(bpy.data.objects) < MOST_OBJECTS:
+            collection = bpy.data.collections.new("Collection")
+            collection.objects.link(self._object("MESH", "FONT", "LIGHT"))
+            empty = _link("Instances", None)
+            empty.instance_type = "COLLECTION"
+            empty.instance_collection = collection
+
     def do_delete_object(self):
         ob = self._object()
         if ob is not None:
@@ -226,14 +234,19 @@ class Changes:
         settings.branches = 2
 
     def do_set_render(self):
-        scene, layer = bpy.context.scene, bpy.context.view_layer
-        render = scene.render
+        render = bpy.context.scene.render
         render.film_transparent = self.rng.random() < 0.5
         render.use_motion_blur = self.rng.random() < 0.3
         render.use_border = self.rng.random() < 0.3
         render.border_min_x, render.border_max_x = self.rng.choice(((0.0, 1.0), (0.3, 0.6), (0.5, 0.7)))
-        layer.use_pass_z = self.rng.random() < 0.5
-        layer.use_pass_normal = self.rng.random() < 0.5
+        render.use_multiview = self.rng.random() < 0.2
+
+    def do_set_pass(self):
+        layer = bpy.context.view_layer
+        owner = self._pick([layer, layer.glanz])
+        names = [p.identifier for p in owner.bl_rna.properties if p.type == "BOOLEAN" and p.identifier.startswith("use_pass")]
+        if names:
+            setattr(owner, self._pick(names), self.rng.random() < 0.7)
 
     def do_set_frame(self):
         bpy.context.scene.frame_set(self.rng.randint(0, 9))

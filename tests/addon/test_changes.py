@@ -8,8 +8,10 @@ from pathlib import Path
 
 import bpy
 import numpy as np
+import pytest
 
 from glanz.tests.addon import blender, changes
+from glanz.tests.chance import SEED
 
 BEFORE_MEASURING = 20
 """Changes until caches and libraries have what they need."""
@@ -45,5 +47,19 @@ def change_and_render(seed, count, path, step=4):
     return resident_megabytes() - before if before else 0.0
 
 
-def test_any_changes_can_be_rendered(tmp_path):
-    assert change_and_render(1, 60, tmp_path / "a.exr") <= MOST_GROWTH
+@pytest.mark.thorough
+@pytest.mark.parametrize(("seed", "count"), [(1, 60)] if SEED is None else [(int(SEED) + n, 200) for n in range(8)])
+def test_any_changes_can_be_rendered(tmp_path, seed, count):
+    assert change_and_render(seed, count, tmp_path / "a.exr") <= MOST_GROWTH
+
+
+def test_memory_that_is_never_given_back_is_noticed(tmp_path, monkeypatch):
+    kept = []
+    render = blender.render
+
+    def leaking(path):
+        kept.append(np.ones(2**20))
+        return render(path)
+
+    monkeypatch.setattr(blender, "render", leaking)
+    assert change_and_render(1, 64, tmp_path / "a.exr") > MOST_GROWTH
