@@ -35,6 +35,8 @@ class Changes:
         self.log = []
         self._nodes = _shader_nodes()
         self._kinds = [getattr(self, name) for name in sorted(dir(self)) if name.startswith("do_")]
+        # A tree takes many changes until it does something.
+        self._kinds += 3 * [self.do_add_node, self.do_link, self.do_set_socket, self.do_set_mode]
         start()
         self._remember("start")
 
