@@ -51,7 +51,9 @@ class Links:
         return type(self)(self.owner, self.findings, groups, trail, self._links)
 
     def _link(self, socket):
-        """The first link into an input `socket` that is not muted, or None."""
+        """The first link into an input `socket` that is not muted, or None; a node may lack an input, as a light's output in a material."""
+        if socket is None:
+            return None
         tree = socket.id_data
         key = tree.as_pointer()
         if key not in self._links:

@@ -103,3 +103,14 @@ def test_shaders_with_different_normals_are_named():
     reliefs, (warning,) = exported(material)
     assert type(reliefs[0]) is BumpMap
     assert "different normals" in warning
+
+
+def test_the_output_of_a_light_serves_in_a_material():
+    """As in Cycles; it has no input for displacement, nor for a volume."""
+    material = bpy.data.materials.new("M")
+    tree = blender.new_nodes(material)
+    shader = blender.add_node(tree, "ShaderNodeBsdfDiffuse", Color=(0.25, 0.5, 0.75, 1))
+    tree.links.new(shader.outputs[0], tree.nodes.new("ShaderNodeOutputLight").inputs["Surface"])
+    blender.add_plane("Plane").data.materials.append(material)
+    (lobe,) = blender.export_object("Plane").materials[0].lobes
+    assert lobe.reflectance == pytest.approx((0.25, 0.5, 0.75))
