@@ -8,6 +8,8 @@ from ..errors import FileError
 
 CANDELA = 4 * np.pi / 177.83
 """What a candela is in the watts by which Blender counts bulbs: at 177.83 lm/W, that of daylight D65 in Cycles."""
+BRIGHTEST = 1e30
+"""Watts beyond which products no longer fit into single precision."""
 _CLOSE = 2.0**-13
 """Degrees that make no difference."""
 _TYPES = {1: "C", 2: "B", 3: "A"}
@@ -35,12 +37,15 @@ def parse_ies(text):
     # Units, width, length, height of the lamp; the factors of its ballast; watts.
     *_, ballast, factor, _ = numbers.take(7)
     vertical, horizontal = numbers.take(rows), numbers.take(columns)
-    intensity = numbers.take(rows * columns).reshape(columns, rows) * (multiplier * ballast * factor * CANDELA)
-    if not (np.isfinite(intensity).all() and (np.diff(vertical) > 0).all() and (np.diff(horizontal) > 0).all()):
-        raise FileError("its angles do not grow, or a number is not finite")
-    vertical, horizontal, intensity = {"A": _type_a, "B": _type_b, "C": _type_c}[kind](vertical, horizontal, intensity)
-    if vertical.size < 2 or horizontal.size < 2:
-        raise FileError("it has a single angle, which is no table")
+    with np.errstate(all="ignore"):
+        intensity = numbers.take(rows * columns).reshape(columns, rows) * (multiplier * ballast * factor * CANDELA)
+        vertical, horizontal, intensity = {"A": _type_a, "B": _type_b, "C": _type_c}[kind](vertical, horizontal, intensity)
+        if vertical.size < 2 or horizontal.size < 2:
+            raise FileError("it has a single angle, which is no table")
+        if not all((np.diff(angles.astype(np.float32)) > 0).all() and np.isfinite(angles).all() for angles in (vertical, horizontal)):
+            raise FileError("its angles do not grow, or are not finite")
+    if not (np.abs(intensity) < BRIGHTEST).all():
+        raise FileError("a candela is not finite, or beyond what is rendered")
     return {"vertical": vertical, "horizontal": horizontal, "intensity": np.ascontiguousarray(intensity)}
 
 

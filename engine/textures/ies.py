@@ -41,7 +41,7 @@ class IesTexture:
     def check(self, owner):
         for name in ("vertical", "horizontal"):
             angles = getattr(self, name)
-            if angles.ndim != 1 or angles.size < 2 or not (np.diff(angles) > 0).all() or not np.isfinite(angles).all():
+            if angles.ndim != 1 or angles.size < 2 or not (np.diff(angles.astype(np.float32)) > 0).all() or not np.isfinite(angles).all():
                 raise SceneError(f"{owner}: {name} angles of an IES Texture are not two or more numbers that grow")
         if self.intensity.shape != (self.horizontal.size, self.vertical.size) or not np.isfinite(self.intensity).all():
             raise SceneError(

@@ -93,6 +93,8 @@ GOOD = text(of_angles, HALF, QUARTER)
         (GOOD.replace(" 19 10 1 2", " 19 10 7 2"), "photometric type"),
         (GOOD.replace("1000 1.0", "1000 x"), "could not convert"),
         (GOOD.replace("1000 1.0", "1000 inf"), "not finite"),
+        (GOOD.replace("1000 1.0", "1000 1e40"), "beyond"),
+        (GOOD.replace("10.000000 20.000000", "10.000000 10.0000001"), "do not grow"),
         (GOOD.replace("10.000000 20.000000", "20.000000 10.000000"), "do not grow"),
         (text(of_angles, HALF[:1], QUARTER), "single angle"),
     ],
