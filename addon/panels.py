@@ -110,6 +110,7 @@ class GLANZ_RENDER_PT_film(GlanzPanel, bpy.types.Panel):
         row.active = settings.pixel_filter != "box"
         row.prop(settings, "filter_width")
         column.prop(settings, "filter_textures")
+        column.prop(context.scene.render, "film_transparent")
 
 
 class GLANZ_RENDER_PT_motion_blur(GlanzPanel, bpy.types.Panel):

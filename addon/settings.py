@@ -40,6 +40,7 @@ def settings_of(scene, view_layer, **overrides):
     render = scene.render
     width, height = resolution(render.resolution_x, render.resolution_y, render.resolution_percentage)
     values = {"width": width, "height": height, "threads": render.threads if render.threads_mode == "FIXED" else 0}
+    values["film_transparent"] = render.film_transparent
     values |= {name: getattr(scene.glanz, name) for name in _OWN}
     lost = [name for name in ("integrator", "sampler", "pixel_filter") if not values[name]]
     if lost and not set(lost) <= set(overrides):

@@ -53,6 +53,11 @@ def _add_render(commands):
     ):
         command.add_argument(f"--{name}", type=kind, metavar=name[0].upper() if kind is str else "N", help=text)
     command.add_argument(
+        "--film-transparent",
+        action=argparse.BooleanOptionalAction,
+        help="leave the film clear where the camera would see the world: alpha is what is covered",
+    )
+    command.add_argument(
         "--sample-range",
         type=sample_range,
         metavar="FIRST,END",

@@ -24,6 +24,7 @@ OVERRIDES = (
     "adaptive_threshold",
     "adaptive_levels",
     "pixel_filter",
+    "film_transparent",
 )
 """Arguments that stand for settings of the same name."""
 

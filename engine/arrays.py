@@ -34,10 +34,7 @@ def columns(rows, dtype=np.float32):
     """Stack `rows`, a sequence of {name: number or 3-tuple}, into one table of `dtype`; what it cannot hold is inf."""
     with np.errstate(over="ignore"):
         return Columns(
-            **{
-                name: np.ascontiguousarray(np.array([row[name] for row in rows], dtype=dtype).T)
-                for name in (rows[0] if rows else ())
-            }
+            **{name: np.ascontiguousarray(np.array([row[name] for row in rows], dtype=dtype).T) for name in (rows[0] if rows else ())}
         )
 
 

@@ -25,6 +25,7 @@ FOOTPRINTS = "footprints"
 RELIEF = "relief"
 LIGHT_PATHS = "light paths"
 SPLIT_LIGHT = "split light"
+TRANSPARENT_FILM = "transparent film"
 
 MEANING = {
     GEOMETRY: "triangles to intersect",
@@ -49,6 +50,7 @@ MEANING = {
     RELIEF: "shading normals bent by textures",
     LIGHT_PATHS: "paths that know what has scattered them",
     SPLIT_LIGHT: "light that is told apart by the kinds of lobes that have sent it to the camera",
+    TRANSPARENT_FILM: "a film that stays clear where the camera would see the world",
 }
 
 

@@ -18,6 +18,7 @@ from .scene.values import Scene
 from .wavefront import dispersion, light_path, media
 from .wavefront.adaptive import AdaptiveTile
 from .wavefront.camera_rays import bladed_aperture, round_aperture, seen_from, start_at, through_the_lens, through_the_pinhole
+from .wavefront.clear_film import STRAIGHT, hidden, stay_clear, stay_straight, straight_at_first
 from .wavefront.clip import clip_row, start_in_range, to_the_end_of_range
 from .wavefront.cones import (
     CARRIED,
@@ -165,10 +166,15 @@ class Plan:
             scene, bsdfs, smooth, has_choice, integrator.samples_lights, has_media, has_environment, steps, passing_of, disperses, before
         )
         can_reflect = bool(world.materials.lobes)
+        is_clear = needs.TRANSPARENT_FILM in requirements
+        shown_world = (add_environment,) if world.lights.environment else (add_background,) if needs.BACKGROUND in requirements else ()
+        # Where what passes straight on is a ray of its own it does not count as one from the camera.
+        minds_straight = is_clear and integrator.tints_glass and any(map(is_straight, bsdfs))
         on_rays = (
             *((media.add_light_hits_in_media if absorbs else add_light_hits,) if needs.LIGHT_HITS in requirements else ()),
             *((media.absorb,) if absorbs else ()),
-            *((add_environment,) if world.lights.environment else (add_background,) if needs.BACKGROUND in requirements else ()),
+            *((stay_clear,) if is_clear else ()),
+            *(map(hidden, shown_world) if is_clear else shown_world),
             *((add_emission,) if needs.EMISSIVE_MESHES in requirements and world.emitters.still else ()),
             *((add_moving_emission,) if needs.EMISSIVE_MESHES in requirements and world.emitters.moving else ()),
         )
@@ -212,6 +218,7 @@ class Plan:
                 *((("facing", no_side),) if minds_side else ()),
                 *(light_path.CARRIED if has_past else ()),
                 *((("split", not_split),) if splits else ()),
+                *(((STRAIGHT, straight_at_first),) if minds_straight else ()),
             ),
             aim=aim_cones(aim) if has_cones else aim,
             aperture=bladed_aperture if camera.lens.blades else round_aperture,
@@ -253,6 +260,7 @@ class Plan:
                 *((remember_side,) if minds_side else ()),
                 *((light_path.leave_by_lobes,) if has_past else ()),
                 *((split_by_lobes,) if splits else ()),
+                *((stay_straight,) if minds_straight else ()),
             ),
             first_hits=tuple(p for p in gathered if p.records == "first hit"),
             passes=gathered,
@@ -262,7 +270,7 @@ class Plan:
             choose_lobe=one_of_the_lobes if len(world.materials.lobes) > 1 else only_lobe,
             leave=leave_on_either_side if any(lobe.bsdf.transmits for lobe in world.materials.lobes) else leave_in_front,
             # After the last bounce scattered rays share the search for direct light with shadow rays, where they can find any.
-            last_depth=settings.max_depth + bool({*on_rays} - {media.absorb} and integrator.is_complete) if can_reflect else 0,
+            last_depth=settings.max_depth + bool({*on_rays} - {media.absorb, stay_clear} and integrator.is_complete) if can_reflect else 0,
         )
 
     def seen_from(self, camera, settings):

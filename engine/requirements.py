@@ -36,6 +36,8 @@ class Requirements:
             ask(needs.of_plugin("pass", PASSES[key]), "settings")
             if getattr(PASSES[key], "is_split", False):
                 ask(needs.SPLIT_LIGHT, "settings")
+        if settings.film_transparent:
+            ask(needs.TRANSPARENT_FILM, "settings")
         if settings.adaptive_threshold:
             ask(needs.ADAPTIVE, "settings")
         for need in _needs_of(scene.camera):
@@ -112,7 +114,8 @@ class Requirements:
         asked = dict(cls.of(scene, settings).needs)
         plugins = [("bsdf", p) for p in BSDFS.values()] + [("light", p) for p in LIGHTS.values()]
         # What settings forbid nobody can ask for.
-        features = [need for need in needs.MEANING if need != needs.FOOTPRINTS or settings.filter_textures]
+        allowed = {needs.FOOTPRINTS: settings.filter_textures, needs.TRANSPARENT_FILM: settings.film_transparent}
+        features = [need for need in needs.MEANING if allowed.get(need, True)]
         every = [*features, *(needs.of_plugin(kind, p) for kind, p in plugins)]
         return cls({**asked, **{need: asked.get(need, ("everything",)) for need in every}})
 

@@ -28,9 +28,7 @@ def tiles(dark, light, count=24, size=0.5):
     vertices = [(x * size - half, y * size - half, 0.0) for y in range(count + 1) for x in range(count + 1)]
     row = count + 1
     faces = [(y * row + x, y * row + x + 1, (y + 1) * row + x + 1, (y + 1) * row + x) for y in range(count) for x in range(count)]
-    return common.mesh(
-        "Floor", vertices, faces, [dark, light], material_indices=[(x + y) % 2 for y in range(count) for x in range(count)]
-    )
+    return common.mesh("Floor", vertices, faces, [dark, light], material_indices=[(x + y) % 2 for y in range(count) for x in range(count)])
 
 
 def build(name, make_materials, max_depth):

@@ -3,6 +3,7 @@
 Nodes and sockets are found by type and identifier, never by name: names are translated and renamed.
 """
 
+
 def has_nodes(datablock):
     """Whether the nodes of a material, world or light count; `use_nodes` means nothing any more where it is deprecated."""
     if datablock.node_tree is None:

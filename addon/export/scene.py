@@ -67,9 +67,12 @@ def _evaluated(datablock, depsgraph):
 
 def _note_ignored(scene, findings):
     """Note the scene's render settings that Glanz does not follow."""
-    render, name = scene.render, f"scene '{scene.name}'"
+    render, cycles, name = scene.render, getattr(scene, "cycles", None), f"scene '{scene.name}'"
     for is_on, what in (
-        (render.film_transparent, "the film is not transparent, the world is always seen"),
+        (
+            render.film_transparent and getattr(cycles, "film_transparent_glass", False),
+            "the film is not transparent behind glass, the world is seen through it",
+        ),
         (render.use_freestyle, "freestyle lines are not rendered"),
         (render.use_multiview and _is_spherical(scene.camera), "spherical stereo is not rendered, each eye stays where it is"),
     ):

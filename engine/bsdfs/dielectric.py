@@ -117,9 +117,7 @@ class Dielectric:
         # An index for each channel: each goes its own way, but all together with the first where they are the same.
         together = (eta == eta[0]).all(axis=0)
         first = np.arange(3)[:, None] == 0
-        return reflected, *(
-            (refract(wo, n, eta[c]), k_t * np.where(together, c == 0, np.roll(first, c, axis=0))) for c in range(3)
-        )
+        return reflected, *((refract(wo, n, eta[c]), k_t * np.where(together, c == 0, np.roll(first, c, axis=0))) for c in range(3))
 
 
 def _with_constants(k, share):

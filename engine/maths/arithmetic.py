@@ -80,8 +80,6 @@ def ping_pong(a, top):
     return np.where(top != 0, np.abs(fraction(divided(a - top, top * 2)) * top * 2 - top), np.float32(0))
 
 
-
-
 def rounded(a):
     """The nearest whole number, upwards half way between two."""
     return np.floor(a + np.float32(0.5))
@@ -170,9 +168,7 @@ NUMBERS = {
 }
 """Of numbers."""
 
-_OF_BOTH = (
-    "add subtract multiply divide minimum maximum modulo snap absolute floor ceil round sign sine cosine tangent power"
-).split()
+_OF_BOTH = ("add subtract multiply divide minimum maximum modulo snap absolute floor ceil round sign sine cosine tangent power").split()
 TRIPLES = {name: NUMBERS[name] for name in _OF_BOTH} | {
     "multiply add": NUMBERS["multiply add"],
     # It differs from `wrapped` by what it rounds.

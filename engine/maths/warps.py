@@ -88,10 +88,12 @@ def square_to_polygon(u2, corners, rotation):
     half = np.pi / corners
     middle = rotation + 2 * half * triangle
     first, second = middle - half, middle + half
-    return np.stack((
-        weights[0] * np.cos(first) + weights[1] * np.cos(second),
-        weights[0] * np.sin(first) + weights[1] * np.sin(second),
-    )).astype(u2.dtype, copy=False)
+    return np.stack(
+        (
+            weights[0] * np.cos(first) + weights[1] * np.cos(second),
+            weights[0] * np.sin(first) + weights[1] * np.sin(second),
+        )
+    ).astype(u2.dtype, copy=False)
 
 
 def square_to_polygon_pdf(corners):

@@ -28,6 +28,7 @@ class Settings:
     adaptive_threshold  how much colours [0, 1] must differ for a pixel to be divided, see `wavefront.adaptive`; 0: none is
     adaptive_levels     how often it may be, in four each time; `samples` is then that of each part
     filter_textures  whether textures are averaged over what a ray stands for; else they are looked up at points, and alias
+    film_transparent whether the camera does not see the world: alpha is the share of a pixel that something covers
     passes         names of passes, see the registry
     tile_size      side of the square tiles [px]; 0: the whole frame; does not change the picture
     motion_steps   shapes that a mesh which deforms while the shutter is open takes; each costs its memory once more
@@ -52,6 +53,7 @@ class Settings:
     adaptive_threshold: float = 0.0
     adaptive_levels: int = 3
     filter_textures: bool = True
+    film_transparent: bool = False
     passes: tuple = ("Combined",)
     tile_size: int = 64
     threads: int = 0
@@ -75,7 +77,7 @@ class Settings:
                 raise SceneError(f"setting {name} is {value!r}, allowed: whole numbers from {lowest} to {highest}")
         if isinstance(self.seed, bool) or not isinstance(self.seed, int):
             raise SceneError(f"setting seed is {self.seed!r}, allowed: whole numbers")
-        for name in ("light_falloff", "filter_textures"):
+        for name in ("light_falloff", "filter_textures", "film_transparent"):
             if not isinstance(getattr(self, name), bool):
                 raise SceneError(f"setting {name} is {getattr(self, name)!r}, allowed: True or False")
         if not (isinstance(self.min_contribution, (int, float)) and 0.0 <= self.min_contribution <= 1.0):
@@ -97,9 +99,7 @@ class Settings:
             x0, y0, x1, y1 = self.border
             if 0 <= x0 < x1 <= self.width and 0 <= y0 < y1 <= self.height:
                 return
-        raise SceneError(
-            f"setting border is {self.border!r}, allowed: (x0, y0, x1, y1) inside {self.width}x{self.height} px and not empty"
-        )
+        raise SceneError(f"setting border is {self.border!r}, allowed: (x0, y0, x1, y1) inside {self.width}x{self.height} px and not empty")
 
     def _check_sample_range(self):
         if not self.sample_range:

@@ -124,7 +124,7 @@ class AdaptiveTile:
         x, y = self._pixels.px, self._pixels.py
         yield self._films[0], self._pixels
         for level in range(self._levels):
-            self._tree.grow(self._films[level].pixels()[_COLOURS][:3])
+            self._tree.grow(self._films[level].pixels()[_COLOURS])
             divided = self._to_divide(level, x, y)
             if not divided.size:
                 return
@@ -173,7 +173,7 @@ class AdaptiveTile:
 
 
 def difference(a, b):
-    """Of two radiances (3, N), (N,) in [0, 1]: the largest of their channels, as displays show them.
+    """Of two radiances with alpha (4, N), (N,) in [0, 1]: the largest of their channels, as displays show them.
 
     That is by the square root, which is close to the curve of sRGB, in units of white; above white it is the share of
     the brighter one, so that the edges of what is too bright to be shown are found too. What is negative counts as black.
@@ -197,12 +197,12 @@ class _Tree:
 
     def __init__(self, roots):
         self._roots = roots
-        self._colours = np.zeros((3, 0))
+        self._colours = np.zeros((4, 0))
         self._first_part = np.zeros(0, np.int64)
         self._newest = 0
 
     def grow(self, colours):
-        """Add the next level, colours (3, M) float64: the parts of what was divided, in order."""
+        """Add the next level, colours and alpha (4, M) float64: the parts of what was divided, in order."""
         self._newest = self._first_part.size
         self._colours = np.concatenate((self._colours, colours), axis=1)
         self._first_part = np.concatenate((self._first_part, np.full(colours.shape[1], -1)))
@@ -212,7 +212,7 @@ class _Tree:
         self._first_part[self._newest + lanes] = self._first_part.size + 4 * np.arange(lanes.size)
 
     def colours(self, level, x, y):
-        """(3, N) of the cells x, y (N,) of a level, or of the larger ones that they would be part of."""
+        """(4, N) of the cells x, y (N,) of a level, or of the larger ones that they would be part of."""
         left, top, width, _ = self._roots
         cell = ((y >> level) - top) * width + (x >> level) - left
         for up in range(level - 1, -1, -1):

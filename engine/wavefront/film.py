@@ -45,6 +45,11 @@ class Film:
         slot = rays.slot.take(lanes)
         for row, value in zip(self.radiance, L):
             row[slot] += value
+        self.record(plan, rays, lanes, L, light, bounces)
+
+    def record(self, plan, rays, lanes, L, light, bounces):
+        """As `add`, for the passes alone: light that the picture does not show."""
+        slot = rays.slot.take(lanes)
         for p in self._parts:
             self.recorded[p.key][:, slot] += p.part(plan, rays, lanes, L, light, bounces)
 

@@ -115,7 +115,6 @@ class Emitters:
             cos_edge=np.full(self.count, -1.0),
         )
 
-
     def _swept2(self, centre):
         """How far (M,) the patches that move are from `centre` (3, M) at most, squared."""
         every = np.arange(self.moving.count)

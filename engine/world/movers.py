@@ -63,7 +63,6 @@ class Moving:
         world = o.world_from_object[:3, :3] @ vertices + o.world_from_object[:3, 3:]
         return cls(tuple(parts), world, keys, anchor, keys.stretch_at(0.5) if is_stretched and not deforms else None)
 
-
     def away(self, origin):
         """How far the origin of the local frame comes from `origin` (3,) at most [m]."""
         pivot = np.einsum("ijk,j->ik", self.keys.stretch, self.anchor)

@@ -19,11 +19,12 @@ def scene():
 
 def test_scene_settings_and_warnings_are_those_of_the_file(scene):
     scene.glanz.samples = 3
-    scene.render.film_transparent = True
+    scene.render.film_transparent = scene.cycles.film_transparent_glass = True
     value, settings, warnings = capture()
     assert [o.name for o in value.objects] == ["Tetrahedron"]
     assert (settings.width, settings.height, settings.samples) == (32, 16, 3)
-    assert warnings == ("the film is not transparent, the world is always seen: scene 'Scene'",)
+    assert settings.film_transparent
+    assert warnings == ("the film is not transparent behind glass, the world is seen through it: scene 'Scene'",)
 
 
 def test_what_a_file_stores_about_materials_and_lights_counts_where_glanz_is_not_switched_on(scene, tmp_path):

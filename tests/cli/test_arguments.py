@@ -68,6 +68,11 @@ def test_every_setting_of_the_command_line_has_its_own_name():
     assert (arguments.adaptive_threshold, arguments.adaptive_levels) == (0.1, 5)
 
 
+@pytest.mark.parametrize(("words", "value"), [([], None), (["--film-transparent"], True), (["--no-film-transparent"], False)])
+def test_the_film_is_as_the_file_says_unless_told_otherwise(words, value):
+    assert parser("1").parse_args(["render", "a.blend", *words]).film_transparent is value
+
+
 @pytest.mark.parametrize(
     ("path", "frame", "is_sequence", "name"),
     [

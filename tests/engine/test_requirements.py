@@ -220,7 +220,7 @@ def test_bits_catch_a_stage_that_is_missing():
 
 
 def test_everything_asks_for_everything():
-    required = Requirements.everything(h.scene(), SETTINGS)
+    required = Requirements.everything(h.scene(), h.replaced(SETTINGS, film_transparent=True))
     for need in needs.MEANING:
         assert need in required
     for key in ("bsdf lambert", "bsdf phong", "light area", "light point", "light spot", "light sun"):

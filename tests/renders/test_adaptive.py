@@ -108,12 +108,13 @@ def test_an_edge_is_as_in_the_full_grid(sampler, monkeypatch):
 
 def test_the_full_grid_catches_neighbours_that_are_ignored(monkeypatch):
     """The mutant compares a cell with others of its own pixel only; another one has no diagonal neighbours."""
+
     def to_divide(self, level, x, y):
         everywhere = original(self, level, x, y)
         if level == 0:
             return everywhere
         # Parts of one cell stand four by four.
-        own = self._tree.colours(level, x, y).reshape(3, -1, 4)
+        own = self._tree.colours(level, x, y).reshape(4, -1, 4)
         apart = difference(own.max(axis=2), own.min(axis=2)) > self._threshold
         return np.intersect1d(everywhere, np.nonzero(np.repeat(apart, 4))[0])
 

@@ -62,6 +62,7 @@ def test_an_object_that_grows_from_nothing_is_seen():
 
 def test_a_flat_object_moves_as_any_other():
     """A scale of 0 along the normal: the motion is rigid, and needs no inverse of it."""
+
     def image(matrix):
         return h.pixels(h.scene([h.replaced(h.thing(h.quad(), GLOW), motion=turned((0, 1.0)) @ matrix)]), h.settings(samples=16))
 

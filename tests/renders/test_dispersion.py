@@ -42,9 +42,7 @@ def turned_by_prism(lobe, incidence, scale=1.0, offset=(0.0, 0.0, 0.0), integrat
     along = np.array((-np.cos(APEX), 0, -np.sin(APEX)))
     towards_eye = np.cos(incidence) * normal + np.sin(incidence) * along
     target = np.array((-0.25, 0.3, np.sqrt(0.75) / 2))
-    camera = PerspectiveCamera.look_at(
-        scale * (target + towards_eye) + offset, scale * target + offset, up=(0, 1, 0), fov=1e-6
-    )
+    camera = PerspectiveCamera.look_at(scale * (target + towards_eye) + offset, scale * target + offset, up=(0, 1, 0), fov=1e-6)
     thing = h.thing(prism(), Material(name="glass", lobes=(lobe,)), h.affine(scale * np.eye(3), offset))
     scene = h.scene([thing], camera=camera, world=1.0)
     plan = h.plan_of(scene, h.settings(width=1, height=1, samples=samples, max_depth=9, integrator=integrator, **settings))

@@ -80,9 +80,7 @@ def test_splitting_lowers_the_noise_of_soft_shadows_like_samples_do():
     cover = h.thing(h.quad((0.3, 0.2, 1), (0.8, 0.3, 0), (-0.2, 0.7, 0)), h.lambert(0))
     scene = h.receiver([lamp], [cover], distance=0.5)
     settings = h.replaced(DISTRIBUTED, width=48, height=48, max_depth=0)
-    split, samples, few = (
-        h.pixels(scene, h.replaced(settings, branches=b, samples=n))[0].std() for b, n in ((16, 4), (1, 64), (1, 4))
-    )
+    split, samples, few = (h.pixels(scene, h.replaced(settings, branches=b, samples=n))[0].std() for b, n in ((16, 4), (1, 64), (1, 4)))
     assert samples / 1.5 < split < 1.5 * samples
     assert few > 4 * split
 

@@ -75,9 +75,7 @@ def test_a_mesh_of_ten_thousand_triangles_does_not_collapse_close_to_it():
     n, side = 72, np.linspace(-0.5, 0.5, 73)
     x, y = np.meshgrid(side, side)
     corner = (np.arange(n * (n + 1)).reshape(n, n + 1)[:, :-1]).ravel()
-    triangles = np.concatenate(
-        (np.stack((corner, corner + 1, corner + n + 2)), np.stack((corner, corner + n + 2, corner + n + 1))), axis=1
-    )
+    triangles = np.concatenate((np.stack((corner, corner + 1, corner + n + 2)), np.stack((corner, corner + n + 2, corner + n + 1))), axis=1)
     # Bent a little, or pairs of triangles would be squares.
     vertices = np.stack((x, y, 0.02 + 1e-4 * np.sin(9 * x) * np.cos(7 * y))).reshape(3, -1)
     lamp = h.thing(h.Mesh(name="lamp", vertices=vertices, triangles=triangles), h.lambert(0, "lamp", 1.0))

@@ -104,9 +104,7 @@ def test_mirrored_instances_keep_their_texture():
 
 def test_mirroring_catches_corners_that_are_not_turned(monkeypatch):
     corners = attributes._corners
-    monkeypatch.setattr(
-        attributes, "_corners", lambda part, *rest: corners(h.replaced(part, mirrored=np.zeros_like(part.mirrored)), *rest)
-    )
+    monkeypatch.setattr(attributes, "_corners", lambda part, *rest: corners(h.replaced(part, mirrored=np.zeros_like(part.mirrored)), *rest))
     with pytest.raises(AssertionError):
         test_mirrored_instances_keep_their_texture()
 

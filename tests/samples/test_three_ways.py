@@ -78,6 +78,28 @@ def test_there_is_no_blender_where_there_should_be_none(tmp_path):
     assert not (tmp_path / "blend.exr").exists()
 
 
+def test_a_transparent_film_is_the_same_three_ways(tmp_path):
+    """The file's, and the command line's; PNG files have straight alpha."""
+    scene = samples.open_sample("cornell_box", samples=2, side=24)
+    scene.camera.rotation_euler.x += 0.3
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "opaque.blend"))
+    scene.render.film_transparent = True
+    scene.render.image_settings.color_mode = "RGBA"
+    inside = through_f12(tmp_path / "f12.exr")
+    alpha = inside["Combined"][..., 3]
+    assert alpha.min() == 0
+    assert alpha.max() == 1
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "file.blend"))
+    succeed(tmp_path, "export file.blend -o file.glanz")
+    succeed(tmp_path, "render file.glanz -o scene.exr -o scene.png", WITHOUT_BLENDER)
+    succeed(tmp_path, "render opaque.blend --film-transparent -o blend.exr -o blend.png")
+    for way in ("scene", "blend"):
+        assert_same_bits(from_file(tmp_path / f"{way}.exr"), inside)
+        image = bpy.data.images.load(str(tmp_path / f"{way}.png"))
+        written = np.array(image.pixels[:]).reshape(24, 24, 4)[::-1, :, 3]
+        np.testing.assert_allclose(written, alpha, atol=0.51 / 255)
+
+
 @pytest.mark.parametrize("name", ["cornell_box", "lights"])
 def test_neither_threads_nor_tiles_change_a_bit(name, tmp_path):
     scene = samples.open_sample(name, samples=3, side=100)

@@ -145,7 +145,7 @@ def test_a_view_layers_world_override_counts():
 
 @pytest.mark.parametrize(
     ("setting", "words"),
-    [("use_motion_blur", "motion blur"), ("film_transparent", "film"), ("use_freestyle", "freestyle")],
+    [("use_motion_blur", "motion blur"), ("use_freestyle", "freestyle")],
 )
 def test_render_settings_that_are_not_followed_are_named(setting, words):
     setattr(bpy.context.scene.render, setting, True)
@@ -153,3 +153,11 @@ def test_render_settings_that_are_not_followed_are_named(setting, words):
     assert len(warnings) == 1
     assert words in warnings[0]
     assert "scene 'Scene'" in warnings[0]
+
+
+def test_a_film_that_is_clear_behind_glass_is_named_where_it_would_be():
+    scene = bpy.context.scene
+    scene.cycles.film_transparent_glass = True
+    assert blender.export()[1] == ()
+    scene.render.film_transparent = True
+    assert blender.export()[1] == ("the film is not transparent behind glass, the world is seen through it: scene 'Scene'",)

@@ -48,13 +48,21 @@ from glanz.tests.chance import law
 def a_scene():
     rng = np.random.default_rng(2)
     corners = Mesh(
-        name="mesh", vertices=rng.standard_normal((3, 40)), triangles=rng.integers(0, 40, (3, 30)),
-        normals=rng.standard_normal((3, 9)), normal_indices=rng.integers(0, 9, (3, 30)), material_indices=rng.integers(0, 2, 30),
+        name="mesh",
+        vertices=rng.standard_normal((3, 40)),
+        triangles=rng.integers(0, 40, (3, 30)),
+        normals=rng.standard_normal((3, 9)),
+        normal_indices=rng.integers(0, 9, (3, 30)),
+        material_indices=rng.integers(0, 2, 30),
     )
     small = Mesh(name="small", vertices=np.float32([[0, 1, 0], [0, 0, 1], [0, 0, -0.0]]), triangles=[[0], [1], [2]])
     shaped = Mesh(
-        name="shaped", vertices=np.zeros((3, 9)), triangles=rng.integers(0, 9, (3, 4)), normals=np.zeros((3, 5)),
-        shapes=rng.standard_normal((4, 3, 9)), shape_normals=rng.standard_normal((4, 3, 5)),
+        name="shaped",
+        vertices=np.zeros((3, 9)),
+        triangles=rng.integers(0, 9, (3, 4)),
+        normals=np.zeros((3, 5)),
+        shapes=rng.standard_normal((4, 3, 9)),
+        shape_normals=rng.standard_normal((4, 3, 5)),
     )
     red = Material(name="röt", lobes=(Lambert((0.7, 0.1, 1 / 3)), Phong((0.1, 0.1, 0.1), exponent=np.float32(12.3))))
     red = dataclasses.replace(red, medium=Medium(absorption=(1 / 3, 0, float("inf")), priority=-2))
@@ -62,8 +70,11 @@ def a_scene():
     matrix = rng.standard_normal((4, 4))
     return Scene(
         camera=PerspectiveCamera(
-            name="cam", world_from_camera=matrix, window=(-0.1, 0.5, -0.3, 0.3),
-            clip_start=1 / 3, lens=Lens(radius=0.1, focus_distance=np.float32(0.3), blades=7),
+            name="cam",
+            world_from_camera=matrix,
+            window=(-0.1, 0.5, -0.3, 0.3),
+            clip_start=1 / 3,
+            lens=Lens(radius=0.1, focus_distance=np.float32(0.3), blades=7),
             motion=rng.standard_normal((3, 4, 4)),
         ),
         objects=[

@@ -93,6 +93,7 @@ def test_settings_cannot_be_changed():
         ("min_contribution", float("nan")),
         ("light_falloff", 1),
         ("filter_textures", None),
+        ("film_transparent", 1),
     ],
 )
 def test_senseless_settings_of_ray_trees_are_refused_by_name(name, value):

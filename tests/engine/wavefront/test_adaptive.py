@@ -79,11 +79,11 @@ def test_a_part_of_cells_are_those_of_the_window():
 def test_the_tree_finds_the_smallest_cell_at_a_place():
     """A pixel of four in one of two; colours tell who was found."""
     tree = adaptive._Tree((4, 7, 2, 1))
-    tree.grow(np.array([[10.0, 20.0]] * 3))
+    tree.grow(np.array([[10.0, 20.0]] * 4))
     tree.divide(np.array([1]))
-    tree.grow(np.array([[21.0, 22.0, 23.0, 24.0]] * 3))
+    tree.grow(np.array([[21.0, 22.0, 23.0, 24.0]] * 4))
     tree.divide(np.array([2]))
-    tree.grow(np.array([[31.0, 32.0, 33.0, 34.0]] * 3))
+    tree.grow(np.array([[31.0, 32.0, 33.0, 34.0]] * 4))
     x, y = rectangle(16, 28, 8, 4)
     expected = np.array(
         [
