@@ -6,8 +6,6 @@ asks for. A pass of the engine that has no row here is not offered in Blender.
 
 from dataclasses import dataclass
 
-import bpy
-
 from . import backend
 
 
@@ -59,6 +57,9 @@ def chosen(view_layer):
 
 def name_of(key):
     """What this version of Blender calls a pass of the engine."""
+    # Not above: the command line knows this module where there is no Blender.
+    import bpy
+
     row = TABLE[key]
     return row.before_5 if row.before_5 and bpy.app.version < (5, 0) else key
 

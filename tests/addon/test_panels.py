@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import bpy
 import pytest
 
-from glanz.addon import builtin_panels, panels
+from glanz.addon import builtin_panels, panels, passes
 from glanz.tests.addon import blender
 
 OWN = {panel.__name__: panel for panel in panels._CLASSES}
@@ -82,7 +82,9 @@ def test_panoramas_can_be_edited():
 
 
 def test_passes_are_drawn():
-    assert _drawn("GLANZ_VIEWLAYER_PT_passes") == ["use_pass_z", "use_pass_normal", "use_pass_sample_count"]
+    drawn = _drawn("GLANZ_VIEWLAYER_PT_passes")
+    assert drawn == [row.flag.rpartition(".")[2] for row in passes.TABLE.values() if row.flag]
+    assert {"use_pass_z", "use_pass_glossy_direct", "use_pass_sample_count"} <= {*drawn}
     assert "material_override" in _drawn("GLANZ_VIEWLAYER_PT_override")
 
 
