@@ -82,7 +82,6 @@ def test_a_transparent_film_is_the_same_three_ways(tmp_path):
     """The file's, and the command line's; PNG files have straight alpha."""
     scene = samples.open_sample("cornell_box", samples=2, side=24)
     scene.camera.rotation_euler.x += 0.3
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "opaque.blend"))
     scene.render.film_transparent = True
     scene.render.image_settings.color_mode = "RGBA"
     inside = through_f12(tmp_path / "f12.exr")
@@ -90,6 +89,8 @@ def test_a_transparent_film_is_the_same_three_ways(tmp_path):
     assert alpha.min() == 0
     assert alpha.max() == 1
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "file.blend"))
+    scene.render.film_transparent = False
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "opaque.blend"))
     succeed(tmp_path, "export file.blend -o file.glanz")
     succeed(tmp_path, "render file.glanz -o scene.exr -o scene.png", WITHOUT_BLENDER)
     succeed(tmp_path, "render opaque.blend --film-transparent -o blend.exr -o blend.png")
