@@ -111,7 +111,7 @@ def glass(colour, ior, roughness=0.0, preserves=True):
 def refraction(colour, ior, roughness):
     """The same, which reflects nothing."""
     eta = RelativeIndex(ior)
-    return Closure((refracted(as_texture(colour), roughness, ior, eta),))
+    return Closure((refracted(as_texture(colour), roughness, eta),))
 
 
 def transparent(colour):

@@ -4,7 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...engine import Dielectric, Medium
+from ...engine import Dielectric, Math, Medium, RelativeIndex, RoughRefraction
+from .colours import typical, varies
 from .nodes import input_by_identifier
 from .values import Reader
 
@@ -32,6 +33,31 @@ def with_dispersion(lobes, material):
     """`lobes` of which glass has the material's Abbe number, if any."""
     abbe = getattr(getattr(material, "glanz", None), "abbe", 0.0)
     return tuple(replace(lobe, abbe=max(abbe, 1.0)) if abbe > 0 and type(lobe) is Dielectric else lobe for lobe in lobes)
+
+
+def with_one_index(lobes):
+    """`lobes` of which all scale radiance by one index of refraction, that of what is behind them: the first one's, on average.
+
+    Else light that came in by one index and leaves by another, where shaders are mixed or the index varies, would be won or lost.
+    """
+    inside = next((typical(_index(lobe)) for lobe in lobes if _has_index(lobe)), 1.0)
+    return tuple(replace(lobe, etendue=_etendue(_index(lobe), inside)) if _has_index(lobe) else lobe for lobe in lobes)
+
+
+def _has_index(lobe):
+    return isinstance(lobe, Dielectric | RoughRefraction)
+
+
+def _index(lobe):
+    # What a rough boundary has is a relative one.
+    return lobe.ior.ior if isinstance(lobe, RoughRefraction) and varies(lobe.ior) else lobe.ior
+
+
+def _etendue(ior, inside):
+    if not varies(ior) and ior == inside:
+        return 1.0
+    ratio = Math(RelativeIndex(ior), RelativeIndex(inside), operation="divide")
+    return Math(ratio, ratio, operation="multiply")
 
 
 def _behind(reader, socket):

@@ -8,7 +8,7 @@ from ...engine import Material, Transparent
 from .closure import Closure, colours_of, diffuse, merged, scaled_lobe, transparent, with_colours
 from .colours import varies
 from .findings import Findings
-from .inside import absorbs, medium_of, with_dispersion
+from .inside import absorbs, medium_of, with_dispersion, with_one_index
 from .lecture import is_lecture, lecture_medium, lecture_surface
 from .nodes import has_nodes, output_node
 from .principled import Layers
@@ -48,7 +48,7 @@ def export_material(material, findings, bitmaps=None):
     relief = displacement_of(reader, output) + next(filter(None, surface.reliefs), ())
     if len(surface.reliefs) > 1:
         findings.note("its shaders have different normals, all are rendered with those of the first that is bent", owner)
-    return replace(checked, lobes=with_dispersion(checked.lobes, material), medium=medium, relief=relief)
+    return replace(checked, lobes=with_one_index(with_dispersion(checked.lobes, material)), medium=medium, relief=relief)
 
 
 def is_volume_only(material):

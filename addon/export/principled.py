@@ -26,7 +26,6 @@ from ...engine import (
     Gloss,
     Lambert,
     LobeExponent,
-    Math,
     Mirror,
     OrenNayar,
     RelativeIndex,
@@ -34,7 +33,7 @@ from ...engine import (
     SheenAlbedo,
     folded,
 )
-from .colours import BLACK, WHITE, added, as_texture, cut, inverted, root, times, typical, varies
+from .colours import BLACK, WHITE, added, as_texture, cut, inverted, root, times, varies
 
 SMOOTHEST = 0.024
 """Blender's roughness below which a lobe would be sharper than the engine's sharpest, 0.1 degrees wide."""
@@ -118,7 +117,7 @@ def boundary(reflectance, transmittance, roughness, ior, weight=WHITE, preserves
     What is scattered several times is lost unless it `preserves` energy.
     """
     if is_smooth(roughness):
-        return (Dielectric(ior, times(weight, reflectance), times(weight, transmittance), etendue=etendue(ior)),)
+        return (Dielectric(ior, times(weight, reflectance), times(weight, transmittance)),)
     eta = RelativeIndex(ior)
     share = GgxAlbedo(roughness, eta, kind="boundary")
     is_white = not varies(transmittance) and np.all(np.equal(transmittance, 1))
@@ -126,21 +125,13 @@ def boundary(reflectance, transmittance, roughness, ior, weight=WHITE, preserves
         weight = times(weight, GlassTint(transmittance, roughness, eta, preserves))
     return (
         reflected(times(times(weight, reflectance), share), roughness),
-        refracted(times(times(weight, transmittance), inverted(share)), roughness, ior, eta),
+        refracted(times(times(weight, transmittance), inverted(share)), roughness, eta),
     )
 
 
-def refracted(colour, roughness, ior, eta):
-    """A lobe of `colour`, all that it lets pass, for Blender's `roughness`; eta is the `RelativeIndex` of `ior`."""
-    return RoughRefraction(colour, LobeExponent(roughness, eta), eta, etendue(ior))
-
-
-def etendue(ior):
-    """That of a boundary whose index `ior` may vary, while the medium behind it has the average everywhere."""
-    if not varies(ior):
-        return 1.0
-    ratio = Math(RelativeIndex(ior), RelativeIndex(typical(ior)), operation="divide")
-    return Math(ratio, ratio, operation="multiply")
+def refracted(colour, roughness, eta):
+    """A lobe of `colour`, all that it lets pass, for Blender's `roughness`, where eta is the relative index."""
+    return RoughRefraction(colour, LobeExponent(roughness, eta), eta)
 
 
 def is_smooth(roughness):

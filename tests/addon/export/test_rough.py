@@ -4,7 +4,7 @@ import bpy
 import numpy as np
 import pytest
 
-from glanz.addon.export import principled
+from glanz.addon.export import closure, inside, principled
 from glanz.engine import (
     CheckerTexture,
     Coordinates,
@@ -167,7 +167,8 @@ def even_light(roughness):
     """Whether a ball of clear glass with an index of 1.2 and of 2 in turn looks as bright as a white world; detects 3 %."""
     octants = CheckerTexture((1.2,) * 3, (2.0,) * 3, Coordinates(source="object"))
     white = (1.0, 1.0, 1.0)
-    ball = h.thing(h.icosphere(3), h.Material(name="glass", lobes=principled.boundary(white, white, roughness, octants)))
+    lobes = inside.with_one_index(principled.boundary(white, white, roughness, octants))
+    ball = h.thing(h.icosphere(3), h.Material(name="glass", lobes=lobes))
     camera = OrthographicCamera(world_from_camera=h.affine(translation=(0, 0, 5)), window=(-0.7, 0.7, -0.7, 0.7))
     image = h.pixels(h.scene([ball], camera=camera, world=1.0), h.settings(width=16, height=16, samples=32, max_depth=200))[1]
     return h.mean_is(image, 1.0, floor=2e-3)
@@ -181,5 +182,20 @@ def test_glass_whose_index_varies_keeps_its_light(roughness):
 
 @pytest.mark.parametrize("roughness", [0.0, 0.25])
 def test_even_light_catches_radiance_that_is_scaled_by_the_index_of_the_place(roughness, monkeypatch):
-    monkeypatch.setattr(principled, "etendue", lambda ior: 1.0)
+    monkeypatch.setattr(inside, "_etendue", lambda ior, inside: 1.0)
     assert not even_light(roughness)
+
+
+@pytest.mark.parametrize("roughness", [0.0, 0.3])
+def test_a_mix_of_two_kinds_of_glass_keeps_its_light(roughness):
+    """Light that enters by one index leaves by the other as often; a tenth was won."""
+    lobes = closure.mix(0.5, closure.glass((1.0,) * 3, 1.2, roughness), closure.glass((1.0,) * 3, 2.0, roughness)).lobes
+    camera = OrthographicCamera(world_from_camera=h.affine(translation=(0, 0, 5)), window=(-0.7, 0.7, -0.7, 0.7))
+
+    def is_even(lobes):
+        ball = h.thing(h.icosphere(3), h.Material(name="glass", lobes=lobes))
+        image = h.pixels(h.scene([ball], camera=camera, world=1.0), h.settings(width=16, height=16, samples=32, max_depth=200))[1]
+        return h.mean_is(image, 1.0, floor=2e-3)
+
+    assert is_even(inside.with_one_index(lobes))
+    assert not is_even(lobes)
