@@ -27,7 +27,7 @@ outputs, modes and seeds. At least 99 % is asked of arithmetic, colours and inpu
 
 The same nodes work in the trees of lights, asked where rays meet the light: UV over an area light, the cone of a spot, around a bulb,
 over the disk of a sun; Object, Generated and Normal in the light's frame; Incoming from the light. Blocks of a lit plane agree with
-Cycles within 1 %, noise included; before 4.5 Cycles took the frame of the world for Object and Generated, and other ends of IES tables.
+Cycles within 1 %, noise included; before 4.5 Cycles took the frame of the world for Object and Generated.
 How often a path was scattered is not known there (depths of Light Path count as on the first bounce), and what is below 0 is no light.
 
 Written by `make nodes`; `make test` checks the same.

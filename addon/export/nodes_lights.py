@@ -17,7 +17,7 @@ def _ies(reader, node, output):
     try:
         if text is None:
             raise FileError("there is no such text or file")
-        table = parse_ies(text)
+        table = parse_ies(text) | {"falls_off": bpy.app.version < (5, 0)}
     except FileError as error:
         reader.note(f"the IES file {name} is not read ({error}), so it is {_UNREAD:g} in all directions, as in Cycles")
         table = {}

@@ -26,6 +26,7 @@ class IesTexture:
     vertical    (V,) angles [degrees] from straight down, upwards; beyond them it is dark
     horizontal  (H,) angles [degrees] about the vertical axis, upwards; from -y towards -x
     intensity   (H, V); between are cubics, as in Cycles
+    falls_off   cubics take 0 for what is beyond the ends of the table, as before Blender 5
     `io.ies.parse_ies` makes the tables of a file.
     """
 
@@ -37,6 +38,7 @@ class IesTexture:
     vertical: np.ndarray = field(default_factory=lambda: np.array((0.0, 180.0)))
     horizontal: np.ndarray = field(default_factory=lambda: np.array((0.0, 360.0)))
     intensity: np.ndarray = field(default_factory=_even)
+    falls_off: bool = False
 
     def check(self, owner):
         for name in ("vertical", "horizontal"):
@@ -55,9 +57,13 @@ class IesTexture:
         After the last horizontal angle comes the last but one, as in Cycles. There 360 degrees, rounded, are less than all around.
         """
         count, rows = self.vertical.size, self.horizontal.size
+        starts_below = self.vertical[0] < _CLOSE
         table = np.asarray(self.intensity, np.float32)
-        table = table[:, [1 if self.vertical[0] < _CLOSE else 0, *range(count), count - 1]]
-        return table[[0, *range(rows), rows - 2]]
+        table = table[:, [1 if starts_below else 0, *range(count), count - 1]][[0, *range(rows), rows - 2]]
+        if self.falls_off:
+            table[[0, -1]] = table[:, -1] = 0
+            table[:, 0] *= starts_below
+        return table
 
     def eval(self, at):
         x, y, z = unit(as_vector(at.value(self.vector)))

@@ -110,9 +110,9 @@ def test_an_ies_file_that_cannot_be_read_is_told_of_the_light(content):
     assert len(warnings) == 1
     assert "IES" in warnings[0]
     assert "light 'Lamp'" in warnings[0]
-    assert ies_of(found).strength == 100.0
-    (found,), _ = exported()
-    ies_of(found).check("light 'Lamp'")
+    texture = ies_of(found)
+    assert (texture.strength, texture.falls_off) == (100.0, False)
+    texture.check("light 'Lamp'")
 
 
 def test_a_file_that_is_not_there_is_told_of_the_light():
