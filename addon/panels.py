@@ -77,6 +77,17 @@ class GLANZ_RENDER_PT_sampling(GlanzPanel, bpy.types.Panel):
         row.prop(settings, "adaptive_levels")
 
 
+class GLANZ_RENDER_PT_viewport(GlanzPanel, bpy.types.Panel):
+    """Of rendered 3D views."""
+
+    bl_label = "Viewport"
+
+    def draw(self, context):
+        column = self.column()
+        column.prop(context.scene.glanz, "viewport_samples", text="Samples")
+        column.prop(context.scene.render, "preview_pixel_size")
+
+
 class GLANZ_RENDER_PT_light_paths(GlanzPanel, bpy.types.Panel):
     bl_label = "Light Paths"
 
@@ -287,6 +298,7 @@ _CLASSES = (
     GLANZ_CAMERA_PT_panorama,
     GLANZ_RENDER_PT_problem,
     GLANZ_RENDER_PT_sampling,
+    GLANZ_RENDER_PT_viewport,
     GLANZ_RENDER_PT_light_paths,
     GLANZ_RENDER_PT_film,
     GLANZ_RENDER_PT_motion_blur,

@@ -50,6 +50,17 @@ class GlanzSceneSettings(bpy.types.PropertyGroup):
         soft_max=4096,
         max=2**24,
     )
+    viewport_samples: IntProperty(
+        name="Viewport Samples",
+        description=(
+            "Paths per pixel in rendered 3D views, after which they rest; 0 goes on until something changes. "
+            "The first picture comes as soon with any number; noise halves with four times as many"
+        ),
+        default=32,
+        min=0,
+        soft_max=1024,
+        max=2**16,
+    )
     max_depth: IntProperty(
         name="Max Depth",
         description=(

@@ -1,5 +1,6 @@
 """The render engine that Blender sees: export, render, write tiles, listen for Esc."""
 
+import sys
 from contextlib import closing, suppress
 from dataclasses import replace
 from functools import partial
@@ -7,7 +8,7 @@ from functools import partial
 import bpy
 
 from . import backend, passes
-from .reports import Warnings, errors_shown
+from .reports import Warnings, errors_shown, errors_told
 from .status import Status
 
 
@@ -24,6 +25,9 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
     # Material Preview is drawn by EEVEE, and the shader editor offers the usual nodes.
     bl_use_eevee_viewport = True
     bl_use_shading_nodes_custom = False
+
+    # What serves the 3D view, in engines that are for one.
+    viewport = None
 
     def __init__(self, *args, **kwargs):
         # Blender runs this twice for each engine, so there is nothing here.
@@ -79,6 +83,24 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
         camera = self.camera_override
         return camera, camera and self.camera_model_matrix(camera), camera and self.camera_shift_x(camera)
 
+    def view_update(self, context, depsgraph):
+        """Called by Blender for a 3D view whose data has changed."""
+        with errors_told(self):
+            self._opened().update(context, depsgraph)
+
+    def view_draw(self, context, depsgraph):
+        """Called by Blender for each redraw of a 3D view."""
+        with errors_told(self):
+            self._opened().draw(context, depsgraph)
+
+    def _opened(self):
+        backend.load_or_raise()
+        from .viewport_draw import Viewport
+
+        if self.viewport is None or self.viewport.is_closed:
+            self.viewport = Viewport(self)
+        return self.viewport
+
     def is_cancelled(self):
         """Whether the user pressed Esc."""
         return self.test_break()
@@ -93,4 +115,7 @@ def register():
 
 
 def unregister():
+    drawing = sys.modules.get(f"{__package__}.viewport_draw")
+    if drawing:
+        drawing.close_all()
     bpy.utils.unregister_class(GlanzRenderEngine)

@@ -51,6 +51,17 @@ def errors_shown(engine):
         engine.report({"ERROR"}, message)
 
 
+@contextmanager
+def errors_told(engine):
+    """Turn whatever is raised inside into the text of the 3D view that Blender's render `engine` serves; nothing stops there."""
+    try:
+        yield
+    except Exception as error:
+        if not is_expected(error):
+            traceback.print_exception(error)
+        engine.update_stats("", describe(error))
+
+
 class Warnings:
     """Shows each warning once: the first few as reports of Blender's render `engine`, the others in the log."""
 

@@ -94,13 +94,15 @@ def render_plan(plan, ends=(), cancelled=None):
     """
     settings = plan.settings
     places = _tiles(settings, plan.tile.longest_side(settings))
-    work = _Work(places, cancelled or threading.Event())
+    work = _Work(places, cancelled)
     begin, end = settings.rendered_samples
     edges = (begin, *(e for e in ends if begin < e < end and plan.tile.most_rounds(settings) == 1), end)
     workers = min(settings.threads or os.cpu_count() or 1, len(places))
     with ThreadPoolExecutor(workers, thread_name_prefix="glanz") as pool:
         try:
             for samples in pairwise(edges):
+                if work.is_stopped():
+                    break
                 pending = {pool.submit(_render_tile, plan, place, work, samples) for place in places}
                 while pending:
                     finished, pending = wait(pending, POLL_SECONDS, FIRST_COMPLETED)
@@ -108,7 +110,7 @@ def render_plan(plan, ends=(), cancelled=None):
                     tiles = (*work.take_unfinished(), *(future.result() for future in finished))
                     yield Progress(work.done, tuple(tile for tile in tiles if tile), work.take_warnings())
         finally:
-            work.cancelled.set()
+            work.stop()
             pool.shutdown(wait=True, cancel_futures=True)
 
 
@@ -150,14 +152,22 @@ def metadata(scene, settings):
 class _Work:
     """What the threads of one render share; `tiles` are those that are begun, by their place."""
 
-    def __init__(self, tiles, cancelled):
-        self.cancelled = cancelled
+    def __init__(self, tiles, cancelled=None):
+        self._stops = [threading.Event(), *((cancelled,) if cancelled else ())]
         self.tiles = {}
         self._lock = threading.Lock()
         self._pixels = sum(width * height for _, _, width, height in tiles)
         self._finished = {}
         self._bad_samples = 0
         self._unfinished = []
+
+    def stop(self):
+        """Let all threads give up."""
+        self._stops[0].set()
+
+    def is_stopped(self):
+        """Whether the threads are to give up."""
+        return any(event.is_set() for event in self._stops)
 
     def finish(self, tile, share):
         """The `share` of the work on a tile that is done, in [0, 1]."""
@@ -200,7 +210,7 @@ def _tiles(settings, longest_side):
 
 def _render_tile(plan, place, work, samples):
     """The `Tile` at `place` after `samples`, from the first to an end; None where it was cancelled."""
-    if work.cancelled.is_set():
+    if work.is_stopped():
         return None
     tile = work.tiles.pop(place, None) or plan.tile(plan, place)
     begin, end = plan.settings.rendered_samples
@@ -211,7 +221,7 @@ def _render_tile(plan, place, work, samples):
         for window, first, count in _batches(pixels.px.size, *samples):
             film.open(count, window, weights[first : first + count])
             rays = camera_rays(plan, pixels.part(window), first, count)
-            if not trace(plan, rays, film, work.cancelled.is_set):
+            if not trace(plan, rays, film, work.is_stopped):
                 return None
             film.close(is_first=first == begin)
             paths += rays.slot.size

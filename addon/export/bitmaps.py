@@ -3,18 +3,22 @@
 import numpy as np
 
 from ...engine import Bitmap
+from .findings import Findings
 from .images import MISSING, frame_shown, has_codes_cut, texels_of, tiles_of
 
 _MAGENTA = Bitmap(name="missing", pixels=np.array(MISSING[:3], np.float32)[:, None, None])
 
 
 class Bitmaps:
-    """Engine values of the images met so far, at a `frame` of the scene."""
+    """Engine values of the images met so far, at a `frame` of the scene.
 
-    def __init__(self, findings, frame=1):
+    known  those of earlier exports, each with what there was to note
+    """
+
+    def __init__(self, findings, frame=1, known=None):
         self._findings = findings
         self._frame = frame
-        self._known = {}
+        self._known = {} if known is None else known
 
     def of(self, image, owner, user=None, is_uncut=False):
         """The `Bitmap` of an image datablock, magenta where it is None or has no pixels; notes are for `owner`.
@@ -24,7 +28,7 @@ class Bitmaps:
         """
         frame = self.frame_of(image, user)
         key = image and (image.name_full, frame, is_uncut and has_codes_cut(image))
-        return self._once(key, lambda: self._read(image, owner, frame, is_uncut))
+        return self._once(key, lambda findings: _read(image, findings, owner, frame, is_uncut))
 
     def frame_of(self, image, user):
         """The number of the picture that an ImageUser shows of a sequence or movie; None: the image is but one."""
@@ -36,17 +40,21 @@ class Bitmaps:
             return ()
         return self._once(
             (image.name_full, "tiles", is_uncut and has_codes_cut(image)),
-            lambda: tuple((number, _bitmap(image, *found)) for number, found in tiles_of(image, self._findings, owner, is_uncut)),
+            lambda findings: tuple((number, _bitmap(image, *found)) for number, found in tiles_of(image, findings, owner, is_uncut)),
         )
 
     def _once(self, key, make):
         if key not in self._known:
-            self._known[key] = make()
-        return self._known[key]
+            notes = Findings()
+            self._known[key] = make(notes), notes
+        value, notes = self._known[key]
+        self._findings.add(notes)
+        return value
 
-    def _read(self, image, owner, frame, is_uncut):
-        found = texels_of(image, self._findings, owner, frame, is_uncut)
-        return _MAGENTA if found is None else _bitmap(image, *found)
+
+def _read(image, findings, owner, frame, is_uncut):
+    found = texels_of(image, findings, owner, frame, is_uncut)
+    return _MAGENTA if found is None else _bitmap(image, *found)
 
 
 def _bitmap(image, texels, is_srgb):

@@ -33,7 +33,7 @@ def export_camera(camera, render, width, height, matrix=None, shift_x=None):
         world_from_camera=matrix,
         clip_start=data.clip_start,
         clip_end=data.clip_end,
-        lens=_lens(data, matrix),
+        lens=lens_of(data, matrix),
         **view(camera.name, data, size, shift),
     )
 
@@ -70,8 +70,11 @@ _KINDS = {
 }
 
 
-def _lens(data, matrix):
-    """The `Lens`, opened as far as the f-stop says; an orthographic camera has no focal length, and takes 1 m for it."""
+def lens_of(data, matrix):
+    """The `Lens` of a camera that stands at `matrix`, opened as far as the f-stop says.
+
+    An orthographic camera has no focal length, and takes 1 m for it.
+    """
     dof = data.dof
     if not dof.use_dof:
         return Lens()

@@ -13,6 +13,11 @@ class Findings:
         """Record `what` happened to `name`, such as "object 'Cube'"."""
         self._names.setdefault(what, {})[name] = True
 
+    def add(self, others):
+        """Record what is noted in other `Findings`."""
+        for what, names in others._names.items():
+            self._names.setdefault(what, {}).update(names)
+
     def lines(self):
         """One warning for each kind of note, with the first few names and the count of the others."""
         return tuple(f"{what}: {_shortened(list(names))}" for what, names in self._names.items())

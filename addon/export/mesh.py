@@ -1,5 +1,7 @@
 """Blender's evaluated meshes as the engine's, by bulk copies only."""
 
+from contextlib import contextmanager
+
 import numpy as np
 
 from ...engine import Mesh
@@ -33,6 +35,19 @@ def export_mesh(mesh, name, attributes=(), groups=()):
         generated=generated(mesh) if ("generated", "") in attributes else np.zeros((3, 0)),
         attributes=mesh_attributes(mesh, loops, names, groups),
     )
+
+
+@contextmanager
+def mesh_of(ob):
+    """The mesh of an object (evaluated) whose data is one, while the block lasts."""
+    if ob.mode != "EDIT":
+        yield ob.data
+        return
+    # While it is edited, its data is elsewhere.
+    try:
+        yield ob.to_mesh()
+    finally:
+        ob.to_mesh_clear()
 
 
 def vertices(mesh):

@@ -6,9 +6,10 @@ import bpy
 import numpy as np
 
 from ...engine import GlanzError, Object, SceneError
+from .kept import Kept
 from .light import Emissions, export_light
 from .material import export_material, is_volume_only
-from .mesh import export_mesh
+from .mesh import export_mesh, mesh_of
 from .motion import STILL
 from .object_values import object_values
 
@@ -39,14 +40,17 @@ class _Placed:
     asked: tuple
 
 
-def export_objects(depsgraph, findings, bitmaps, material_override=None, check=lambda: None, tracks=STILL):
+def export_objects(
+    depsgraph, findings, bitmaps, material_override=None, check=lambda: None, tracks=STILL, kept=None, is_shown=lambda ob: True
+):
     """(objects, lights): engine values for every instance of `depsgraph`, tuples.
 
     Meshes are shared by data-block, so ten thousand instances cost one mesh; images are by `bitmaps`. `material_override`, if any,
     replaces all materials. `check` is called now and then and may raise to stop. `tracks` is told who is there, and moves them, see
-    `motion`. Raises SceneError naming the object that failed.
+    `motion`. `kept` is what was exported before, `is_shown` says whether an object (evaluated) is to be seen. Raises SceneError
+    naming the object that failed.
     """
-    parts, emissions = _Parts(findings, bitmaps, material_override), Emissions(findings, bitmaps)
+    parts, emissions = _Parts(findings, bitmaps, material_override, kept or Kept()), Emissions(findings, bitmaps)
     placed, matrices, values, identities, lights = [], [], [], [], []
     for i, instance in enumerate(depsgraph.object_instances):
         if i % POLL_EVERY == 0:
@@ -54,6 +58,8 @@ def export_objects(depsgraph, findings, bitmaps, material_override=None, check=l
         # Instances are valid for this round of the loop only: everything is copied.
         ob, matrix = instance.object, np.array(instance.matrix_world, np.float64)
         try:
+            if not is_shown(ob):
+                continue
             if ob.type == "LIGHT":
                 light = _placed_light(instance, matrix, findings, emissions, depsgraph)
                 if light is not None:
@@ -109,14 +115,26 @@ def has_faces(matrices):
         return np.any([np.cross(a, b).any(axis=1) for a, b in ((x, y), (y, z), (z, x))], axis=0)
 
 
+def has_polygons(ob):
+    """Whether there is anything to render of an object (evaluated) whose data is a mesh."""
+    with mesh_of(ob) as mesh:
+        return len(mesh.polygons) > 0
+
+
+def _exported(ob, attributes):
+    with mesh_of(ob) as mesh:
+        return export_mesh(mesh, ob.data.name, attributes, [group.name for group in ob.vertex_groups])
+
+
 class _Parts:
     """Meshes and materials, exported when first met."""
 
-    def __init__(self, findings, bitmaps, material_override):
+    def __init__(self, findings, bitmaps, material_override, kept):
         self._findings = findings
         self._override = material_override
+        self._kept = kept
         self._bitmaps = bitmaps
-        self._parts, self._meshes, self._materials = {}, {}, {}
+        self._parts, self._materials = {}, {}
 
     def of(self, ob):
         """The `_Placed` mesh of an object, or None where there is nothing to render."""
@@ -132,7 +150,7 @@ class _Parts:
         return self._parts[key]
 
     def _new(self, ob):
-        if not len(ob.data.polygons):
+        if not has_polygons(ob):
             return None
         # Slots, not the mesh's own list: they know which materials are linked to the object instead.
         materials = [self._override or slot.material for slot in ob.material_slots] or [self._override]
@@ -146,13 +164,9 @@ class _Parts:
         return _Placed(ob.name, self._mesh(ob, frozenset(a for a in attributes if a[0] not in _OF_OBJECTS)), values, asked)
 
     def _mesh(self, ob, attributes):
-        data = ob.data
+        self._note_missing(ob.data, attributes)
         # Objects whose textures ask for other things get a mesh of their own.
-        key = data.as_pointer(), attributes
-        if key not in self._meshes:
-            self._meshes[key] = export_mesh(data, data.name, attributes, [group.name for group in ob.vertex_groups])
-            self._note_missing(data, attributes)
-        return self._meshes[key]
+        return self._kept.mesh(ob, attributes, lambda: _exported(ob, attributes))
 
     def _note_missing(self, data, attributes):
         for source, layer in attributes:

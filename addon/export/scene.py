@@ -3,9 +3,9 @@
 from contextlib import nullcontext
 
 from ...engine import Scene
-from .bitmaps import Bitmaps
 from .camera import export_camera
 from .findings import Findings
+from .kept import Kept
 from .motion import STILL, CameraTrack, Shutter, Tracks
 from .objects import export_objects
 from .world import export_world
@@ -34,17 +34,33 @@ def export_views(depsgraph, settings, views, check=lambda: None, frame_set=None)
         # The cameras first: where there is none, no one should wait for the meshes.
         cameras = [_camera_track(depsgraph, settings, view) for view in views]
         _note_ignored(scene, findings)
-        override = _evaluated(depsgraph.view_layer_eval.material_override, depsgraph)
         tracks = Tracks(shutter, depsgraph, cameras, findings, check) if shutter else STILL
-        world = _evaluated(getattr(depsgraph.view_layer_eval, "world_override", None) or scene.world, depsgraph)
-        bitmaps = Bitmaps(findings, scene.frame_current)
-        world = export_world(world, findings, bitmaps)
-        # Last, for to see what moves Blender has to leave the frame.
-        objects, lights = export_objects(depsgraph, findings, bitmaps, override, check, tracks)
-    scenes = tuple(
-        Scene(name=scene.name, camera=camera.moved(shutter, findings), objects=objects, lights=lights, world=world) for camera in cameras
-    )
+        contents = _contents(depsgraph, findings, Kept(), check, tracks)
+    scenes = tuple(Scene(name=scene.name, camera=camera.moved(shutter, findings), **contents) for camera in cameras)
     return scenes, findings.lines()
+
+
+def export_contents(depsgraph, kept, is_shown=lambda ob: True):
+    """(scene, warnings) as of a 3D view: the engine's `Scene` without a camera, at one time.
+
+    kept      what was exported before, a `Kept`
+    is_shown  whether an object (evaluated) is to be seen
+    """
+    findings = Findings()
+    _note_ignored(depsgraph.scene_eval, findings)
+    contents = _contents(depsgraph, findings, kept, is_shown=is_shown)
+    return Scene(name=depsgraph.scene_eval.name, camera=None, **contents), findings.lines()
+
+
+def _contents(depsgraph, findings, kept, check=lambda: None, tracks=STILL, is_shown=lambda ob: True):
+    """What `Scene`s have but for their cameras, {name: value}."""
+    layer, bitmaps = depsgraph.view_layer_eval, kept.bitmaps(findings, depsgraph.scene_eval.frame_current)
+    override = _evaluated(layer.material_override, depsgraph)
+    world = _evaluated(getattr(layer, "world_override", None) or depsgraph.scene_eval.world, depsgraph)
+    world = export_world(world, findings, bitmaps)
+    # Last, for to see what moves Blender has to leave the frame.
+    objects, lights = export_objects(depsgraph, findings, bitmaps, override, check, tracks, kept, is_shown)
+    return {"objects": objects, "lights": lights, "world": world}
 
 
 def _camera_track(depsgraph, settings, view):

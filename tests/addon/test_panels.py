@@ -54,7 +54,7 @@ def _drawn(name, ob=None):
 
 
 def test_settings_are_drawn():
-    panels_of_render = ("sampling", "light_paths", "film", "motion_blur", "performance")
+    panels_of_render = ("sampling", "viewport", "light_paths", "film", "motion_blur", "performance")
     names = []
     for integrator in ("path", "distributed", "whitted_phong"):
         bpy.context.scene.glanz.integrator = integrator

@@ -24,7 +24,7 @@ from pathlib import Path
 FOLDER = Path(__file__).resolve().parent
 ROOT = FOLDER.parents[1]
 OUT = ROOT / "out" / "desktop"
-SCRIPTS = sorted(path.stem for path in FOLDER.glob("*.py") if path.stem not in ("harness", "run", "screen", "symbols"))
+SCRIPTS = sorted(path.stem for path in FOLDER.glob("*.py") if path.stem not in ("harness", "run", "screen", "symbols", "views"))
 PATIENCE = 150.0
 """Seconds for one script, start of Blender included."""
 PLATFORM = {"linux": "linux-x64", "win32": "windows-x64", "darwin": "macos-arm64"}.get(sys.platform, sys.platform)

@@ -241,10 +241,20 @@ def test_rounds_count_for_nothing_where_pixels_are_divided():
 
 
 def test_who_sets_the_event_ends_the_render():
-    plan, _ = prepare(scenes.everything(), h.replaced(SETTINGS, width=64, height=64, samples=2**20))
-    cancelled = threading.Event()
-    for progress in render_plan(plan, ends=[2**i for i in range(20)], cancelled=cancelled):
+    """No round is begun after it."""
+    plan, _ = prepare(scenes.everything(), h.replaced(SETTINGS, width=64, height=64, samples=2**16))
+    cancelled, after = threading.Event(), 0
+    for progress in render_plan(plan, ends=range(1, 2**16), cancelled=cancelled):
+        after += cancelled.is_set()
         if progress.tiles:
             cancelled.set()
     assert progress.done < 1
+    assert after <= 8 * 8
     assert not glanz_threads()
+
+
+def test_the_event_is_left_as_it_is():
+    cancelled = threading.Event()
+    plan, _ = prepare(scenes.everything(), SETTINGS)
+    assert list(render_plan(plan, cancelled=cancelled))[-1].done == 1
+    assert not cancelled.is_set()
