@@ -126,9 +126,9 @@ def test_redraws_are_asked_for_until_it_rests(views):
 
 
 def test_what_is_not_rendered_as_in_blender_is_told(views):
-    views.exported_after(lambda: setattr(bpy.context.scene.render, "film_transparent", True) or plane().update_tag())
+    views.exported_after(lambda: setattr(bpy.context.scene.render, "use_freestyle", True) or plane().update_tag())
     views.draw()
-    assert "film" in views.engine.told[1]
+    assert "freestyle" in views.engine.told[1]
 
 
 def test_a_fault_of_the_export_is_told_and_forgotten(views, monkeypatch, capsys):
