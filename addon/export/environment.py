@@ -13,7 +13,7 @@ _INTERPOLATIONS = {"Linear": "linear", "Closest": "closest"}
 
 
 def _environment(reader, node, output):
-    pixels = linear_pixels(node.image, reader.findings, reader.owner, reader.bitmaps.frame_of(node.image, node.image_user))[:3]
+    pixels = linear_pixels(node.image, reader.note, reader.bitmaps.frame_of(node.image, node.image_user))[:3]
     if node.interpolation not in _INTERPOLATIONS:
         reader.note(f"the interpolation {node.interpolation} of Environment Texture is rendered as Linear")
     if node.projection == "MIRROR_BALL":

@@ -1,26 +1,90 @@
 """What the export left out or approximated, collected so that a thousand objects give one line."""
 
+from dataclasses import dataclass
+
+from ...engine import SceneError
+
+APPROXIMATED = "approximated"
+"""Rendered, but not as Blender renders it."""
+IGNORED = "ignored"
+"""Not rendered, as if it were not asked for."""
+MISSING = "missing"
+"""What the file refers to and is not there: images, node groups, libraries, layers of meshes."""
+KINDS = (MISSING, IGNORED, APPROXIMATED)
+"""The worst first. What is exact has no note."""
+LOST = (MISSING, IGNORED)
+"""The kinds that are errors where a scene is strict."""
+
 _MOST_NAMES = 4
+
+
+@dataclass(frozen=True)
+class Note:
+    """One thing that is not rendered as Blender renders it.
+
+    what   happened, such as "hair particles are not rendered"
+    owner  whom it concerns, such as "object 'Cube'"; "": the text says it
+    kind   one of `KINDS`
+    node   names of the node, its group nodes first; (): it is no node
+    """
+
+    what: str
+    owner: str
+    kind: str = APPROXIMATED
+    node: tuple = ()
+
+    @property
+    def place(self):
+        """The owner with the node, such as "node 'Mix' in 'Group' of material 'Wood'"."""
+        return f"node {' in '.join(repr(name) for name in self.node[::-1])} of {self.owner}" if self.node else self.owner
+
+    @property
+    def datablock(self):
+        """(kind, name) of the owner, such as ("object", "Cube")."""
+        kind, _, name = self.owner.partition(" '")
+        return kind, name.removesuffix("'")
+
+    def as_dict(self):
+        """The note, ready for JSON."""
+        kind, name = self.datablock
+        return {"what": self.what, "kind": self.kind, "datablock": kind, "name": name, "node": list(self.node)}
 
 
 class Findings:
     """Notes grouped by what they say; each names who is concerned, once."""
 
     def __init__(self):
-        self._names = {}
+        self._notes = {}
 
-    def note(self, what, name):
-        """Record `what` happened to `name`, such as "object 'Cube'"."""
-        self._names.setdefault(what, {})[name] = True
+    def note(self, what, owner, kind=APPROXIMATED, node=()):
+        """Record a `Note` of these fields."""
+        self._notes[Note(what, owner, kind, node)] = True
 
-    def add(self, others):
-        """Record what is noted in other `Findings`."""
-        for what, names in others._names.items():
-            self._names.setdefault(what, {}).update(names)
+    @property
+    def notes(self):
+        """All notes in the order in which they came up."""
+        return tuple(self._notes)
 
-    def lines(self):
-        """One warning for each kind of note, with the first few names and the count of the others."""
-        return tuple(f"{what}: {_shortened(list(names))}" for what, names in self._names.items())
+    def lines(self, kinds=KINDS):
+        """One warning for each thing that happened, with the first few names and the count of the others."""
+        return grouped(note for note in self._notes if note.kind in kinds)
+
+    def raise_if_lost(self, scene_name):
+        """Raises SceneError with all that is missing or ignored, if anything is."""
+        if lines := self.lines(LOST):
+            raise SceneError(
+                f"scene '{scene_name}' is strict, and Glanz does not render all of it:\n"
+                + ";\n".join(lines)
+                + "\nChange this in the scene, or switch Strict off"
+            )
+
+
+def grouped(notes):
+    """Lines for `notes`, one for each thing that happened."""
+    places = {}
+    for note in notes:
+        places.setdefault((note.what, note.kind), []).append(note.place)
+    return tuple(what + (f": {_shortened(names)}" if any(names) else "") for (what, _), names in places.items())
 
 
 def _shortened(names):

@@ -5,9 +5,10 @@ import re
 import bpy
 import numpy as np
 
+from .findings import MISSING
 from .image_files import pixels_in, pixels_of_data, pixels_of_file, pixels_of_movie, scene_linear
 
-MISSING = (1.0, 0.0, 1.0, 1.0)
+MAGENTA = (1.0, 0.0, 1.0, 1.0)
 """Magenta: what Blender shows for an image that it cannot find."""
 _PLAIN = ("Linear Rec.709", "Working Space")
 """Colour spaces in which numbers are scene-linear as they are."""
@@ -24,23 +25,20 @@ def frame_shown(user, frame):
     return user.frame_offset + ((frame - 1) % length + 1 if user.use_cyclic else min(max(frame, 0), length))
 
 
-def texels_of(image, findings, owner, frame=None, is_uncut=False):
+def texels_of(image, frame=None, is_uncut=False):
     """(texels, is_srgb) of an image datablock: (H, W, 4), row 0 is the bottom; alpha is 1 where it does not count.
 
     As Cycles has them: uint8, colours encoded by sRGB or linear and, as they are encoded, multiplied by alpha; or float32,
     scene-linear and multiplied by alpha. `frame` is the number of the picture in a sequence or movie; `is_uncut`: colours
-    will be divided by alpha again. None, with a note for `owner`, for an image that is missing or None.
+    will be divided by alpha again. None for an image that is missing or None.
     """
     image = image and image.original
     found = image and _read(image, frame)
-    if not found:
-        findings.note(f"the image {repr(image.name) + ' ' if image else ''}is missing and is rendered magenta", owner)
-        return None
-    return _texels(image, *found, is_uncut)
+    return _texels(image, *found, is_uncut) if found else None
 
 
-def tiles_of(image, findings, owner, is_uncut=False):
-    """((number, (texels, is_srgb)), ...) of a tiled image; tiles that are missing are noted for `owner` and left out."""
+def tiles_of(image, is_uncut=False):
+    """((number, (texels, is_srgb) or None where it is missing), ...) of a tiled image."""
     image = image.original
     found, packed = [], {_name(f.filepath): f for f in image.packed_files}
     for tile in image.tiles:
@@ -51,21 +49,19 @@ def tiles_of(image, findings, owner, is_uncut=False):
             # It was never saved.
             pixels = pixels_in(image)
             read = None if pixels is None else (pixels, image.is_float)
-        if read:
-            found.append((tile.number, _texels(image, *read, is_uncut)))
-        else:
-            findings.note(f"tile {tile.number} of the image '{image.name}' is missing and is rendered magenta", owner)
+        found.append((tile.number, _texels(image, *read, is_uncut) if read else None))
     return tuple(found)
 
 
-def linear_pixels(image, findings, owner, frame=None):
+def linear_pixels(image, note, frame=None):
     """(4, H, W) float32: red, green, blue, scene-linear and multiplied by alpha, and alpha; row 0 is the top.
 
-    An image that is missing, or None, is one pixel of magenta and noted for `owner`.
+    An image that is missing, or None, is one pixel of magenta; `note` is told, see `note_missing`.
     """
-    found = texels_of(image, findings, owner, frame)
+    found = texels_of(image, frame)
     if found is None:
-        return np.array(MISSING, np.float32)[:, None, None]
+        note_missing(note, image)
+        return np.array(MAGENTA, np.float32)[:, None, None]
     texels, is_srgb = found
     pixels = np.moveaxis(texels[::-1], 2, 0)
     if texels.dtype != np.uint8:
@@ -75,6 +71,12 @@ def linear_pixels(image, findings, owner, frame=None):
     if is_srgb:
         result[:3] = _srgb_to_linear(shares).astype(np.float32).take(pixels[:3])
     return result
+
+
+def note_missing(note, image, tile=None):
+    """Tell `note`, a function (what, kind), that an image (or None), or a tile of it by number, is rendered magenta."""
+    of_tile = "" if tile is None else f"tile {tile} of "
+    note(f"{of_tile}the image {repr(image.name) + ' ' if image else ''}is missing and is rendered magenta", MISSING)
 
 
 def is_cut_by_alpha(image):

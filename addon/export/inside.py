@@ -6,6 +6,7 @@ import numpy as np
 
 from ...engine import Dielectric, Math, Medium, RelativeIndex, RoughRefraction
 from .colours import typical, varies
+from .findings import IGNORED
 from .nodes import input_by_identifier
 from .values import Reader
 
@@ -70,7 +71,7 @@ def _behind(reader, socket):
 
 
 def _left_out(reader, node):
-    reader.note(f"the volume is left out: {node.bl_label} is not supported")
+    reader.note(f"the volume is left out: {node.bl_label} is not supported", IGNORED)
     return np.zeros(3)
 
 

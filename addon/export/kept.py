@@ -29,9 +29,9 @@ class Kept:
         self._asked[key] = owners, mesh
         return mesh
 
-    def bitmaps(self, findings, frame):
+    def bitmaps(self, frame):
         """`Bitmaps` for a frame of the scene, which knows the images of earlier exports."""
-        return Bitmaps(findings, frame, self._bitmaps)
+        return Bitmaps(frame, self._bitmaps)
 
     def update(self, depsgraph):
         """Forget what Blender says has changed, and what nobody asked for since the last time; to be called before each export."""

@@ -12,6 +12,7 @@ import numpy as np
 
 from ...engine import AreaLight, CosineSpotLight, PointLight, Shade, SpotLight, SunLight
 from .colours import as_texture, varies
+from .findings import IGNORED
 from .nodes import has_nodes, output_node
 from .shaders import surface_of
 
@@ -87,12 +88,12 @@ def strength(light):
 def note_ignored(light_object, light, name, findings):
     """Note what Blender can ask of a light and Glanz does not do."""
     if not getattr(light, "use_shadow", True):
-        findings.note("the light casts shadows although they are switched off", name)
+        findings.note("the light casts shadows although they are switched off", name, IGNORED)
     linking = getattr(light_object, "light_linking", None)
     if linking and (linking.receiver_collection or linking.blocker_collection):
-        findings.note("light linking is ignored, the light reaches everything", name)
+        findings.note("light linking is ignored, the light reaches everything", name, IGNORED)
     if not (light_object.visible_diffuse and light_object.visible_glossy):
-        findings.note("ray visibility other than the camera's is ignored", name)
+        findings.note("ray visibility other than the camera's is ignored", name, IGNORED)
 
 
 def _bulb_intensity(light, S):
@@ -130,7 +131,7 @@ def _sun(light, matrix, S, common, name, findings):
     axis = matrix[:3, 2]
     length = np.linalg.norm(axis)
     if not length > 0:
-        findings.note("the light's scale leaves it no direction, so it is left out", name)
+        findings.note("the light's scale leaves it no direction, so it is left out", name, IGNORED)
         return None
     angle = min(light.angle, math.pi)
     if not getattr(light, "normalize", True) and angle > 0:

@@ -7,7 +7,7 @@ import numpy as np
 from ...engine import Material, Transparent
 from .closure import Closure, colours_of, diffuse, merged, scaled_lobe, transparent, with_colours
 from .colours import varies
-from .findings import Findings
+from .findings import IGNORED, Findings
 from .inside import absorbs, medium_of, with_dispersion, with_one_index
 from .lecture import is_lecture, lecture_medium, lecture_surface
 from .nodes import has_nodes, output_node
@@ -43,7 +43,7 @@ def export_material(material, findings, bitmaps=None):
     is_bare = absorbs(medium) and not reader.is_linked(output, "Surface")
     surface = transparent((1.0, 1.0, 1.0)) if is_bare else surface_of(output, owner, findings, bitmaps)
     if not getattr(material, "use_transparent_shadow", True) and any(isinstance(lobe, Transparent) for lobe in surface.lobes):
-        findings.note("Transparent Shadows is off, but transparent surfaces let shadow rays pass all the same", owner)
+        findings.note("Transparent Shadows is off, but transparent surfaces let shadow rays pass all the same", owner, IGNORED)
     checked = _checked(material.name, owner, surface, findings)
     relief = displacement_of(reader, output) + next(filter(None, surface.reliefs), ())
     if len(surface.reliefs) > 1:

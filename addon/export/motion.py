@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import bpy
 import numpy as np
 
+from .findings import IGNORED
 from .mesh import corner_normals, corners, is_flat, vertices
 
 _MOST_STEPS = 7
@@ -51,12 +52,12 @@ class Shutter:
             return None
         name = f"scene '{scene.name}'"
         if frame_set is None:
-            findings.note("motion blur is not rendered", name)
+            findings.note("motion blur is not rendered", name, IGNORED)
             return None
         if not _is_box(render):
-            findings.note("the shutter opens and closes at once, its curve is ignored", name)
+            findings.note("the shutter opens and closes at once, its curve is ignored", name, IGNORED)
         if getattr(cycles, "rolling_shutter_type", "NONE") != "NONE":
-            findings.note("the shutter does not roll, the whole picture is exposed at once", name)
+            findings.note("the shutter does not roll, the whole picture is exposed at once", name, IGNORED)
         length = render.motion_blur_shutter
         position = getattr(render, "motion_blur_position", getattr(cycles, "motion_blur_position", "CENTER"))
         frame = scene.frame_current + scene.frame_subframe

@@ -3,6 +3,8 @@
 Nodes and sockets are found by type and identifier, never by name: names are translated and renamed.
 """
 
+from .findings import APPROXIMATED, IGNORED, MISSING
+
 
 def has_nodes(datablock):
     """Whether the nodes of a material, world or light count; `use_nodes` means nothing any more where it is deprecated."""
@@ -68,12 +70,14 @@ class Links:
             self.note("its nodes form a circle, which is cut off")
             return None
         if len(self.trail) >= DEEPEST:
-            self.note(f"its nodes feed each other more than {DEEPEST} deep, what is beyond '{node.name}' is cut off")
+            self.note(f"its nodes feed each other more than {DEEPEST} deep, what is beyond '{node.name}' is cut off", IGNORED)
             return None
         return self._elsewhere(self.groups, (*self.trail, (node, self.groups)))
 
-    def note(self, what):
-        self.findings.note(what, self.owner)
+    def note(self, what, kind=APPROXIMATED):
+        """Record what happened to the node that is being read."""
+        node, groups = self.trail[-1] if self.trail else (None, ())
+        self.findings.note(what, self.owner, kind, tuple(n.name for n in (*groups, node)) if node else ())
 
     def source(self, socket):
         """(reader, socket, output): the output that feeds an input `socket`, None if nothing does.
@@ -103,7 +107,7 @@ class Links:
             return self, node.inputs[0]
         if node.type == "GROUP":
             if node.node_tree is None:
-                self.note(f"the node group of '{node.name}' is missing")
+                self.note("the node group is missing", MISSING)
                 return self, None
             inside = next((n for n in node.node_tree.nodes if n.type == "GROUP_OUTPUT" and n.is_active_output), None)
             reader = self._elsewhere((*self.groups, node), self.trail)

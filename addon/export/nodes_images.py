@@ -14,9 +14,9 @@ def _image(reader, node, output):
     image, is_box = node.image, node.projection == "BOX"
     # As Cycles has it: whoever asks for the alpha cuts the colour out with it.
     is_uncut = is_cut_by_alpha(image) and any(socket.identifier == "Alpha" and socket.is_linked for socket in node.outputs)
-    tiles = reader.bitmaps.tiles(image, reader.owner, is_uncut)
+    tiles = reader.bitmaps.tiles(image, reader.note, is_uncut)
     # Of a tiled image whose tiles are all missing nothing is known but that.
-    bitmap = tiles[0][1] if tiles else reader.bitmaps.of(image, reader.owner, node.image_user, is_uncut)
+    bitmap = tiles[0][1] if tiles else reader.bitmaps.of(image, reader.note, node.image_user, is_uncut)
     return ImageTexture(
         bitmap,
         reader.vector(node, _UV),

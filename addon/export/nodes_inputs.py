@@ -21,6 +21,7 @@ from ...engine import (
 )
 from .attributes import DEFAULT_COLOUR, ISLAND, POINTINESS
 from .colours import varies
+from .findings import IGNORED
 
 _NORMAL = Geometry("normal")
 
@@ -111,12 +112,12 @@ def _camera(reader, node, output):
 
 
 def _ambient_occlusion(reader, node, output):
-    reader.note("Ambient Occlusion is 1 everywhere, nothing is darkened by what is near")
+    reader.note("Ambient Occlusion is 1 everywhere, nothing is darkened by what is near", IGNORED)
     return 1.0 if output == "AO" else reader.value(node, "Color", (1.0, 1.0, 1.0))
 
 
 def _bevel(reader, node, output):
-    reader.note("Bevel does not round edges, it is the normal of the surface")
+    reader.note("Bevel does not round edges, it is the normal of the surface", IGNORED)
     return _normal_of(reader, node) or _NORMAL
 
 

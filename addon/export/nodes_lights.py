@@ -3,6 +3,7 @@
 import bpy
 
 from ...engine import FileError, Geometry, IesTexture, LightFalloff, VectorTransform, parse_ies
+from .findings import MISSING
 
 LARGEST = 2**24
 """Bytes of a file of a lamp maker that are read: some thousand times what these have."""
@@ -19,7 +20,7 @@ def _ies(reader, node, output):
             raise FileError("there is no such text or file")
         table = parse_ies(text) | {"falls_off": bpy.app.version < (5, 0)}
     except FileError as error:
-        reader.note(f"the IES file {name} is not read ({error}), so it is {_UNREAD:g} in all directions, as in Cycles")
+        reader.note(f"the IES file {name} is not read ({error}), so it is {_UNREAD:g} in all directions, as in Cycles", MISSING)
         table = {}
         strength = strength * _UNREAD if isinstance(strength, float) else strength
     return IesTexture(reader.vector(node, _FROM_LIGHT), strength, **table)

@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 
 from ...engine import GlanzError, Object, SceneError
+from .findings import APPROXIMATED, IGNORED, MISSING
 from .kept import Kept
 from .light import Emissions, export_light
 from .material import export_material, is_volume_only
@@ -81,7 +82,7 @@ def export_objects(
 def _placed_light(instance, matrix, findings, emissions, depsgraph):
     ob = instance.object
     if not is_placed(matrix[None])[0]:
-        findings.note("the transform is not finite, so it is left out", f"light '{ob.name}'")
+        findings.note("the transform is not finite, so it is left out", f"light '{ob.name}'", IGNORED)
         return None
     return export_light(ob, matrix, findings, emissions, lambda names: object_values(instance, names, depsgraph))
 
@@ -95,8 +96,8 @@ def _placed_objects(parts, matrices, values, findings):
     visible = finite & has_faces(matrices)
     for part, is_finite, is_visible in zip(parts, finite, visible, strict=True):
         if not is_visible:
-            cause = "the scale leaves no surface" if is_finite else "the transform is not finite"
-            findings.note(f"{cause}, so it is left out", f"object '{part.name}'")
+            cause, kind = ("the scale leaves no surface", APPROXIMATED) if is_finite else ("the transform is not finite", IGNORED)
+            findings.note(f"{cause}, so it is left out", f"object '{part.name}'", kind)
     return [
         Object(name=part.name, mesh=part.mesh, world_from_object=matrix, materials=part.materials, values=own) if is_visible else None
         for part, matrix, own, is_visible in zip(parts, matrices, values, visible, strict=True)
@@ -141,7 +142,7 @@ class _Parts:
         # Text, curves and metaballs come twice: as themselves, and as an instance whose data is a mesh.
         if not isinstance(ob.data, bpy.types.Mesh):
             if ob.type in _NOT_RENDERED:
-                self._findings.note(_NOT_RENDERED[ob.type], f"object '{ob.name}'")
+                self._findings.note(_NOT_RENDERED[ob.type], f"object '{ob.name}'", IGNORED)
             return None
         # Instances are temporary copies: only the original and the data tell which object it is.
         key = (ob.original.as_pointer(), ob.data.as_pointer())
@@ -155,7 +156,7 @@ class _Parts:
         # Slots, not the mesh's own list: they know which materials are linked to the object instead.
         materials = [self._override or slot.material for slot in ob.material_slots] or [self._override]
         if all(is_volume_only(material) for material in materials):
-            self._findings.note(_NOT_RENDERED["VOLUME"], f"object '{ob.name}'")
+            self._findings.note(_NOT_RENDERED["VOLUME"], f"object '{ob.name}'", IGNORED)
             return None
         self._note_ignored(ob)
         values = tuple(self._material(material) for material in materials)
@@ -171,7 +172,7 @@ class _Parts:
     def _note_missing(self, data, attributes):
         for source, layer in attributes:
             if source in ("uv", "tangent") and layer and layer not in data.uv_layers:
-                self._findings.note(f"there is no UV map '{layer}', it counts as 0", f"mesh '{data.name}'")
+                self._findings.note(f"there is no UV map '{layer}', it counts as 0", f"mesh '{data.name}'", MISSING)
 
     def _material(self, material):
         key = material.as_pointer() if material else None
@@ -182,9 +183,9 @@ class _Parts:
     def _note_ignored(self, ob):
         name = f"object '{ob.name}'"
         if not all(getattr(ob, flag) for flag in _RAY_VISIBILITY):
-            self._findings.note("ray visibility is ignored, everything sees the object", name)
+            self._findings.note("ray visibility is ignored, everything sees the object", name, IGNORED)
         if ob.is_holdout or ob.is_shadow_catcher:
-            self._findings.note("holdouts and shadow catchers are rendered as ordinary objects", name)
+            self._findings.note("holdouts and shadow catchers are rendered as ordinary objects", name, IGNORED)
         for system in ob.particle_systems:
             if system.settings.type == "HAIR" and system.settings.render_type == "PATH":
-                self._findings.note("hair particles are not rendered", name)
+                self._findings.note("hair particles are not rendered", name, IGNORED)

@@ -2,6 +2,7 @@
 
 from ...engine import BumpMap, Geometry, LinearTexture
 from .colours import added, as_texture, times, varies
+from .findings import IGNORED
 from .nodes import input_by_identifier
 
 
@@ -23,7 +24,7 @@ def displacement_of(reader, output):
     inside = reader.beyond(end.node)
     read = _HEIGHTS.get(end.node.type)
     if inside is None or read is None:
-        reader.note("displacement by other nodes than Displacement and Vector Displacement is left out")
+        reader.note("displacement by other nodes than Displacement and Vector Displacement is left out", IGNORED)
         return ()
     reader.note("displacement is rendered as bump, outlines and shadows stay as they are")
     height = read(inside, end.node)

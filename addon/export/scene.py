@@ -4,20 +4,20 @@ from contextlib import nullcontext
 
 from ...engine import Scene
 from .camera import export_camera
-from .findings import Findings
+from .findings import IGNORED, Findings
 from .kept import Kept
 from .motion import STILL, CameraTrack, Shutter, Tracks
 from .objects import export_objects
 from .world import export_world
 
 
-def export_scene(depsgraph, settings, view=None, check=lambda: None, frame_set=None):
+def export_scene(depsgraph, settings, view=None, check=lambda: None, frame_set=None, findings=None):
     """(scene, warnings): the engine's `Scene` of one view of an evaluated `depsgraph`; see `export_views`."""
-    scenes, warnings = export_views(depsgraph, settings, (view,), check, frame_set)
+    scenes, warnings = export_views(depsgraph, settings, (view,), check, frame_set, findings)
     return scenes[0], warnings
 
 
-def export_views(depsgraph, settings, views, check=lambda: None, frame_set=None):
+def export_views(depsgraph, settings, views, check=lambda: None, frame_set=None, findings=None):
     """(scenes, warnings): the engine's `Scene` for each view of an evaluated `depsgraph`, and what is not as in Blender, in lines.
 
     settings   the engine's `Settings`, for the size of the frame
@@ -25,9 +25,10 @@ def export_views(depsgraph, settings, views, check=lambda: None, frame_set=None)
                the time of the call; None: the scene's own camera. The scenes differ in nothing but their cameras
     check      called now and then; may raise to stop the export
     frame_set  goes to (frame, fraction of a frame), for motion blur; the frame is restored. None: nothing is blurred
+    findings   `Findings` that keep the warnings as notes, too
     Raises SceneError naming the object for which no picture is possible.
     """
-    findings = Findings()
+    findings = findings or Findings()
     shutter = Shutter.of(depsgraph, frame_set, findings)
     with shutter or nullcontext():
         scene = depsgraph.scene_eval
@@ -54,7 +55,7 @@ def export_contents(depsgraph, kept, is_shown=lambda ob: True):
 
 def _contents(depsgraph, findings, kept, check=lambda: None, tracks=STILL, is_shown=lambda ob: True):
     """What `Scene`s have but for their cameras, {name: value}."""
-    layer, bitmaps = depsgraph.view_layer_eval, kept.bitmaps(findings, depsgraph.scene_eval.frame_current)
+    layer, bitmaps = depsgraph.view_layer_eval, kept.bitmaps(depsgraph.scene_eval.frame_current)
     override = _evaluated(layer.material_override, depsgraph)
     world = _evaluated(getattr(layer, "world_override", None) or depsgraph.scene_eval.world, depsgraph)
     world = export_world(world, findings, bitmaps)
@@ -93,4 +94,4 @@ def _note_ignored(scene, findings):
         (render.use_multiview and _is_spherical(scene.camera), "spherical stereo is not rendered, each eye stays where it is"),
     ):
         if is_on:
-            findings.note(what, name)
+            findings.note(what, name, IGNORED)

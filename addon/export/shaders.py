@@ -6,6 +6,7 @@ from ...engine import Clamp
 from . import closure
 from .closure import Closure
 from .colours import varies
+from .findings import APPROXIMATED, IGNORED
 from .nodes import input_by_identifier
 from .principled import Layers, fibres
 from .relief import relief_of
@@ -37,7 +38,7 @@ def _behind(reader, socket):
 def _approximated(reader, node):
     """Nodes that are not understood are diffuse in their colour, and say so."""
     if input_by_identifier(node, "Color") is None:
-        reader.note(f"{node.bl_label} is not supported and is rendered black")
+        reader.note(f"{node.bl_label} is not supported and is rendered black", IGNORED)
         return Closure()
     reader.note(f"{node.bl_label} is not supported and is rendered as Diffuse of its colour")
     return closure.diffuse(reader.value(node, "Color"))
@@ -127,22 +128,22 @@ def _holdout(reader, node):
 
 def _without_anisotropy(reader, node, identifier):
     if reader.is_linked(node, identifier) or reader.number(node, identifier) != 0:
-        reader.note(f"Anisotropy of {node.bl_label} is left out")
+        reader.note(f"Anisotropy of {node.bl_label} is left out", IGNORED)
 
 
 _LEFT_OUT = {
-    "Subsurface Weight": "Subsurface of Principled BSDF is rendered as diffuse",
-    "Sheen Weight": "Sheen of Principled BSDF is rendered as diffuse, brighter towards the rim",
-    "Anisotropic": "Anisotropy of Principled BSDF is left out",
-    "Thin Film Thickness": "Thin film of Principled BSDF is left out",
-    "Thin Wall": "Thin wall of Principled BSDF is left out",
+    "Subsurface Weight": ("Subsurface of Principled BSDF is rendered as diffuse", APPROXIMATED),
+    "Sheen Weight": ("Sheen of Principled BSDF is rendered as diffuse, brighter towards the rim", APPROXIMATED),
+    "Anisotropic": ("Anisotropy of Principled BSDF is left out", IGNORED),
+    "Thin Film Thickness": ("Thin film of Principled BSDF is left out", IGNORED),
+    "Thin Wall": ("Thin wall of Principled BSDF is left out", IGNORED),
 }
 
 
 def _principled(reader, node):
-    for identifier, note in _LEFT_OUT.items():
+    for identifier, (what, kind) in _LEFT_OUT.items():
         if reader.is_linked(node, identifier) or reader.number(node, identifier):
-            reader.note(note)
+            reader.note(what, kind)
     lobes, left = Layers(
         base=reader.value(node, "Base Color"),
         metallic=reader.value(node, "Metallic"),

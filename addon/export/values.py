@@ -4,6 +4,7 @@ from ...engine import Average, Luminance, folded, is_texture
 from . import environment, nodes_colours, nodes_converters, nodes_images, nodes_inputs, nodes_lights, nodes_patterns, nodes_sky
 from .bitmaps import Bitmaps
 from .colours import typical, varies
+from .findings import IGNORED
 from .nodes import Links, input_by_identifier
 
 TABLE = {
@@ -52,7 +53,7 @@ class Reader(Links):
     def __init__(self, owner, findings, bitmaps=None, groups=(), trail=(), links=None, known=None):
         super().__init__(owner, findings, groups, trail, links)
         self.has_points = bitmaps is not None
-        self.bitmaps = bitmaps if self.has_points else Bitmaps(findings)
+        self.bitmaps = bitmaps if self.has_points else Bitmaps()
         self._known = known or _Known()
 
     def _elsewhere(self, groups, trail):
@@ -63,7 +64,7 @@ class Reader(Links):
     def beyond(self, node):
         """See `Links.beyond`."""
         if len(self._known.values) >= MOST:
-            self.note(f"its nodes are more than {MOST}, those of groups counted each time: '{node.name}' and others are cut off")
+            self.note(f"its nodes are more than {MOST}, those of groups counted each time: '{node.name}' and others are cut off", IGNORED)
             return None
         return super().beyond(node)
 
@@ -94,7 +95,7 @@ class Reader(Links):
             if found is not None and (self.has_points or not varies(found)):
                 return _as_kind(found, output.type, socket.type)
             where = f"{socket.identifier} of {socket.node.bl_label}"
-            self.note(f"{where} is linked to {output.node.bl_label}, which is not read; the socket's own value is used")
+            self.note(f"{where} is linked to {output.node.bl_label}, which is not read; the socket's own value is used", IGNORED)
             end = socket
         return _as_kind(_own_value(end, default), end.type, socket.type)
 

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 from ...engine import World
 from .environment import as_picture
+from .findings import IGNORED
 from .material import clean_colour
 from .nodes import has_nodes, output_node
 from .shaders import surface_of
@@ -22,7 +23,7 @@ def export_world(world, findings, bitmaps):
         findings.note("the node tree has no active output, so the world is black", owner)
         return World(name=world.name)
     if Reader(owner, findings).is_linked(output, "Volume"):
-        findings.note("the volume is left out", owner)
+        findings.note("the volume is left out", owner, IGNORED)
     radiance, picture = as_picture(surface_of(output, owner, findings, bitmaps).emission)
     if picture is None:
         return World(name=world.name, radiance=clean_colour(radiance, owner, findings))

@@ -48,7 +48,7 @@ def test_volumes_can_be_added_and_mixed():
 def test_other_volumes_are_left_out_and_named(label):
     material, warnings = exported(glass("ShaderNode" + "".join(sorted(label.split(), reverse=True)))[0])
     assert material.medium is None
-    assert warnings == (f"the volume is left out: {label} is not supported: material 'Wine'",)
+    assert warnings == (f"the volume is left out: {label} is not supported: node '{label}' of material 'Wine'",)
 
 
 @pytest.mark.parametrize(("values", "expected"), [({"Density": -1.0}, None), ({"Color": (2, 1, 0, 1), "Density": 3.0}, (0, 0, 3))])

@@ -79,7 +79,7 @@ def test_a_missing_image_is_told_of_the_light():
     new_light("SPOT", "Gobo", feed="ShaderNodeTexImage")
     (found,), warnings = exported()
     assert any(type(part) is ImageTexture for part in with_inner(found.shade.texture))
-    assert warnings == ("the image is missing and is rendered magenta: light 'Gobo'",)
+    assert warnings == ("the image is missing and is rendered magenta: node 'Image Texture' of light 'Gobo'",)
 
 
 def ies_of(light):

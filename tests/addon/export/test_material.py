@@ -227,7 +227,7 @@ def test_shadows_that_should_not_be_transparent_are_named():
 def test_unknown_shaders_are_diffuse_in_their_colour_and_named(kind, label):
     exported, warnings = _exported(blender.new_material("Shirt", f"ShaderNode{kind}", Color=(0.5, 0.6, 0.7, 1)))
     assert exported.lobes[0].reflectance == pytest.approx((0.5, 0.6, 0.7))
-    assert warnings == (f"{label} is not supported and is rendered as Diffuse of its colour: material 'Shirt'",)
+    assert warnings == (f"{label} is not supported and is rendered as Diffuse of its colour: node '{label}' of material 'Shirt'",)
 
 
 def test_textures_that_are_not_read_are_named_and_the_sockets_own_value_is_used():

@@ -113,18 +113,19 @@ def test_a_picture_that_is_not_just_turned_is_a_texture(kind, inputs):
 
 def test_what_an_environment_texture_cannot_do_is_named():
     set_sky(new_image(picture()), interpolation="Cubic")
-    assert "interpolation Cubic of Environment Texture is rendered as Linear: world 'World'" in "\n".join(blender.export()[1])
+    (line,) = blender.export()[1]
+    assert line.endswith("interpolation Cubic of Environment Texture is rendered as Linear: node 'Environment Texture' of world 'World'")
 
 
 def test_a_missing_picture_is_magenta_and_named():
     set_sky(None)
     scene, warnings = blender.export()
     assert scene.world.environment.pixels.ravel().tolist() == [1, 0, 1]
-    assert warnings == ("the image is missing and is rendered magenta: world 'World'",)
+    assert warnings == ("the image is missing and is rendered magenta: node 'Environment Texture' of world 'World'",)
     image = bpy.data.images.new("lost", 4, 4)
     image.source, image.filepath = "FILE", "//nowhere.exr"
     set_sky(image)
-    assert blender.export()[1] == ("the image 'lost' is missing and is rendered magenta: world 'World.001'",)
+    assert blender.export()[1] == ("the image 'lost' is missing and is rendered magenta: node 'Environment Texture' of world 'World.001'",)
 
 
 @pytest.mark.skipif(bpy.app.version >= (5, 0), reason="from Blender 5.0 on every world has nodes")
