@@ -192,9 +192,8 @@ class GLANZ_VIEWLAYER_PT_passes(GlanzPanel, bpy.types.Panel):
 
     def draw(self, context):
         column = self.column()
-        for _, row in passes.offered().values():
-            if row.flag:
-                column.prop(*passes.switch(context.view_layer, row.flag))
+        for owner, name in passes.switches(context.view_layer):
+            column.prop(owner, name)
 
 
 class GLANZ_VIEWLAYER_PT_override(GlanzPanel, bpy.types.Panel):

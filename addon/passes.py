@@ -28,6 +28,11 @@ TABLE = {
     "Combined": BlenderPass("COLOR"),
     "Depth": BlenderPass("VALUE", "use_pass_z"),
     "Normal": BlenderPass("VECTOR", "use_pass_normal"),
+    "Position": BlenderPass("VECTOR", "use_pass_position"),
+    "Mist": BlenderPass("VALUE", "use_pass_mist"),
+    "UV": BlenderPass("VECTOR", "use_pass_uv"),
+    "Object Index": BlenderPass("VALUE", "use_pass_object_index", "IndexOB"),
+    "Material Index": BlenderPass("VALUE", "use_pass_material_index", "IndexMA"),
     "Diffuse Direct": BlenderPass("COLOR", "use_pass_diffuse_direct", "DiffDir"),
     "Diffuse Indirect": BlenderPass("COLOR", "use_pass_diffuse_indirect", "DiffInd"),
     "Diffuse Color": BlenderPass("COLOR", "use_pass_diffuse_color", "DiffCol"),
@@ -39,6 +44,10 @@ TABLE = {
     "Transmission Color": BlenderPass("COLOR", "use_pass_transmission_color", "TransCol"),
     "Emission": BlenderPass("COLOR", "use_pass_emit", "Emit"),
     "Environment": BlenderPass("COLOR", "use_pass_environment", "Env"),
+    # Cycles' own switch, as the compositor's Denoise node is fed alike whichever has rendered.
+    "Denoising Albedo": BlenderPass("COLOR", "cycles.denoising_store_passes"),
+    "Denoising Normal": BlenderPass("VECTOR", "cycles.denoising_store_passes"),
+    "Denoising Depth": BlenderPass("VALUE", "cycles.denoising_store_passes"),
     "Sample Count": BlenderPass("VALUE", "glanz.use_pass_sample_count"),
 }
 
@@ -52,7 +61,7 @@ def offered():
 
 def chosen(view_layer):
     """Keys of the passes that are switched on in `view_layer`; Combined always is."""
-    return tuple(key for key, (_, row) in offered().items() if not row.flag or getattr(*switch(view_layer, row.flag)))
+    return tuple(key for key, (_, row) in offered().items() if not row.flag or getattr(*switch(view_layer, row.flag), False))
 
 
 def name_of(key):
@@ -65,9 +74,21 @@ def name_of(key):
 
 
 def switch(view_layer, flag):
-    """(owner, name) of the property that is meant by a `flag` of the table."""
+    """(owner, name) of the property that is meant by a `flag` of the table; no owner where it is of an add-on that is off."""
     path, _, name = flag.rpartition(".")
-    return (view_layer.path_resolve(path) if path else view_layer), name
+    return (getattr(view_layer, path, None) if path else view_layer), name
+
+
+def switches(view_layer):
+    """(owner, name) of all properties that switch passes on, each once."""
+    flags = dict.fromkeys(row.flag for _, row in offered().values() if row.flag)
+    return [found for found in (switch(view_layer, flag) for flag in flags) if hasattr(*found)]
+
+
+def attributes(keys):
+    """What the passes `keys` of the engine ask of meshes and objects, keys as materials have them."""
+    registry = backend.engine().PASSES
+    return frozenset(asked for key in keys for asked in getattr(registry[key], "attributes", ()))
 
 
 def register_passes(engine, scene, view_layer):

@@ -35,7 +35,22 @@ from .lights.sun import SunLight
 from .registry import FILTERS, INTEGRATORS, PASSES, SAMPLERS, TEXTURES
 from .rendering import Image, Progress, Tile, metadata, prepare, render, render_image, render_plan
 from .requirements import Requirements
-from .scene import Bitmap, Coordinates, EnvironmentMap, Lens, Material, Medium, Mesh, MeshAttribute, Object, Scene, Settings, Shade, World
+from .scene import (
+    Bitmap,
+    Coordinates,
+    EnvironmentMap,
+    Lens,
+    Material,
+    Medium,
+    Mesh,
+    MeshAttribute,
+    Mist,
+    Object,
+    Scene,
+    Settings,
+    Shade,
+    World,
+)
 from .scene.graphs import is_texture
 from .scene.points import average_of
 from .scene.textured import folded, textures_of
@@ -155,6 +170,7 @@ __all__ = [
     "Mesh",
     "MeshAttribute",
     "Mirror",
+    "Mist",
     "Mix",
     "MixColour",
     "NoiseTexture",

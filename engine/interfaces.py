@@ -250,6 +250,10 @@ class Camera(Protocol):
         """How far points p (3, N) are away, (N,), as passes and the clip range measure it."""
 
     @staticmethod
+    def distance(k, p):
+        """How far points p (3, N) are away, (N,), for what fades with distance."""
+
+    @staticmethod
     def ray_per_depth(k, d):
         """Length of rays along d (3, N) per unit of depth, (N,)."""
 
@@ -297,9 +301,12 @@ class Pass(Protocol):
     records     what it writes down along the way, (C, slots), which is `background` before:
                 "first hit": `values(plan, rays, surface, reflection)` (C, M) where camera rays hit;
                 "light": of all light that `wavefront.film.Film.add` is told of its `part(plan, rays, lanes, L, light, bounces)` (C, M);
+                "first hit and light": the sum of both, its `background` is 0;
                 "": nothing, it is what `gather(film)` (C, slots) makes of the film at the end
     reduction   what a pixel is of its samples: their "mean", the "first" of them, or their "sum"
     divided_by  the pass whose share it is, and by which it is divided at the end; "" for none
+
+    One that looks up what meshes and objects bring has `attributes`, keys as in `world.attributes`.
 
     One that records light and asks by which kinds of lobes it has left the first surface says `is_split = True`, see
     `wavefront.splitting`.

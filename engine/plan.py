@@ -162,8 +162,23 @@ class Plan:
         # What rays pass on their way is no lobe for them to choose where they end.
         are_passed = passes and not integrator.tints_glass
         bsdfs = tuple(bsdf for bsdf in requirements.plugins("bsdf") if not (are_passed and is_straight(bsdf)))
+        # Those that others are divided by, too.
+        wanted = [PASSES[key] for key in settings.passes]
+        gathered = tuple(dict.fromkeys((*wanted, *(PASSES[p.divided_by] for p in wanted if p.divided_by))))
+        asked = [key for p in gathered for key in getattr(p, "attributes", ())]
         world = world or compile_world(
-            scene, bsdfs, smooth, has_choice, integrator.samples_lights, has_media, has_environment, steps, passing_of, disperses, before
+            scene,
+            bsdfs,
+            smooth,
+            has_choice,
+            integrator.samples_lights,
+            has_media,
+            has_environment,
+            steps,
+            passing_of,
+            disperses,
+            before,
+            asked,
         )
         can_reflect = bool(world.materials.lobes)
         is_clear = needs.TRANSPARENT_FILM in requirements
@@ -195,9 +210,6 @@ class Plan:
         scale = world.frame.scale
         place = world.frame.points(camera.position[:, None])[:, 0]
         row = camera.row(settings.width, settings.height, scale) | (clip_row(camera, scale) if is_clipped else {})
-        # Those that others are divided by, too.
-        asked = [PASSES[key] for key in settings.passes]
-        gathered = tuple(dict.fromkeys((*asked, *(PASSES[p.divided_by] for p in asked if p.divided_by))))
         splits = needs.SPLIT_LIGHT in requirements
         return cls(
             scene=scene,
@@ -262,7 +274,7 @@ class Plan:
                 *((split_by_lobes,) if splits else ()),
                 *((stay_straight,) if minds_straight else ()),
             ),
-            first_hits=tuple(p for p in gathered if p.records == "first hit"),
+            first_hits=tuple(p for p in gathered if p.records.startswith("first hit")),
             passes=gathered,
             tile=AdaptiveTile if needs.ADAPTIVE in requirements else EvenTile,
             scatter=integrator.scatter,

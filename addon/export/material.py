@@ -27,6 +27,10 @@ def export_material(material, findings, bitmaps=None):
     """The engine's `Material` for a material (evaluated); None is `DEFAULT`. Without `bitmaps` textures are not read."""
     if material is None:
         return DEFAULT
+    return replace(_surface(material, findings, bitmaps), index=float(getattr(material, "pass_index", 0)))
+
+
+def _surface(material, findings, bitmaps):
     owner = f"material '{material.name}'"
     if is_lecture(material):
         checked = _checked(material.name, owner, lecture_surface(material, owner, findings), findings)

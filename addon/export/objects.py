@@ -42,16 +42,16 @@ class _Placed:
 
 
 def export_objects(
-    depsgraph, findings, bitmaps, material_override=None, check=lambda: None, tracks=STILL, kept=None, is_shown=lambda ob: True
+    depsgraph, findings, bitmaps, material_override=None, check=lambda: None, tracks=STILL, kept=None, is_shown=lambda ob: True, asked=()
 ):
     """(objects, lights): engine values for every instance of `depsgraph`, tuples.
 
     Meshes are shared by data-block, so ten thousand instances cost one mesh; images are by `bitmaps`. `material_override`, if any,
     replaces all materials. `check` is called now and then and may raise to stop. `tracks` is told who is there, and moves them, see
-    `motion`. `kept` is what was exported before, `is_shown` says whether an object (evaluated) is to be seen. Raises SceneError
-    naming the object that failed.
+    `motion`. `kept` is what was exported before, `is_shown` says whether an object (evaluated) is to be seen, `asked` is what passes
+    look up, whatever the materials. Raises SceneError naming the object that failed.
     """
-    parts, emissions = _Parts(findings, bitmaps, material_override, kept or Kept()), Emissions(findings, bitmaps)
+    parts, emissions = _Parts(findings, bitmaps, material_override, kept or Kept(), asked), Emissions(findings, bitmaps)
     placed, matrices, values, identities, lights = [], [], [], [], []
     for i, instance in enumerate(depsgraph.object_instances):
         if i % POLL_EVERY == 0:
@@ -130,11 +130,12 @@ def _exported(ob, attributes):
 class _Parts:
     """Meshes and materials, exported when first met."""
 
-    def __init__(self, findings, bitmaps, material_override, kept):
+    def __init__(self, findings, bitmaps, material_override, kept, asked):
         self._findings = findings
         self._override = material_override
         self._kept = kept
         self._bitmaps = bitmaps
+        self._asked = asked
         self._parts, self._materials = {}, {}
 
     def of(self, ob):
@@ -160,7 +161,7 @@ class _Parts:
             return None
         self._note_ignored(ob)
         values = tuple(self._material(material) for material in materials)
-        attributes = frozenset().union(*(value.attributes for value in values))
+        attributes = frozenset(self._asked).union(*(value.attributes for value in values))
         asked = tuple(sorted(name for source, name in attributes if source == "value"))
         return _Placed(ob.name, self._mesh(ob, frozenset(a for a in attributes if a[0] not in _OF_OBJECTS)), values, asked)
 

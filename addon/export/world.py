@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from ...engine import World
+from ...engine import Mist, World
 from .environment import as_picture
 from .findings import IGNORED
 from .material import clean_colour
@@ -15,6 +15,11 @@ def export_world(world, findings, bitmaps):
     """The engine's `World` for a world (evaluated), its images by `bitmaps`; none is black."""
     if world is None:
         return World()
+    mist = world.mist_settings
+    return replace(_surroundings(world, findings, bitmaps), mist=Mist(start=mist.start, depth=mist.depth, falloff=mist.falloff.lower()))
+
+
+def _surroundings(world, findings, bitmaps):
     owner = f"world '{world.name}'"
     if not has_nodes(world):
         return World(name=world.name, radiance=clean_colour(world.color, owner, findings))

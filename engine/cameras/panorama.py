@@ -103,6 +103,11 @@ class PanoramaCamera:
         return length(p)
 
     @staticmethod
+    def distance(k, p):
+        """How far p (3, N) is away for mist, (N,): in a straight line."""
+        return length(p)
+
+    @staticmethod
     def ray_per_depth(k, d):
         """Length of rays along d (3, N) per unit of depth, (N,): 1."""
         return np.ones_like(d[0])

@@ -108,6 +108,11 @@ class PerspectiveCamera:
         return dot(p, k.axis)
 
     @staticmethod
+    def distance(k, p):
+        """How far p (3, N) is away for mist, (N,): in a straight line."""
+        return length(p)
+
+    @staticmethod
     def ray_per_depth(k, d):
         """Length of rays along d (3, N) per unit of depth, (N,)."""
         return 1 / dot(d, k.axis)

@@ -7,7 +7,22 @@ import numpy as np
 
 from ..errors import FileError, GlanzError
 from ..registry import BSDFS, CAMERAS, LIGHTS, TEXTURES
-from ..scene import Bitmap, Coordinates, EnvironmentMap, Lens, Material, Medium, Mesh, MeshAttribute, Object, Scene, Settings, Shade, World
+from ..scene import (
+    Bitmap,
+    Coordinates,
+    EnvironmentMap,
+    Lens,
+    Material,
+    Medium,
+    Mesh,
+    MeshAttribute,
+    Mist,
+    Object,
+    Scene,
+    Settings,
+    Shade,
+    World,
+)
 from ..scene.graphs import is_texture, with_inner
 from ..textures.bump_map import BumpMap
 from ..textures.linear import LinearTexture
@@ -20,7 +35,7 @@ PARTS = {
     Mesh: {"attributes": [MeshAttribute]},
     Object: {"mesh": Mesh, "materials": [Material]},
     Material: {"lobes": [BSDFS], "relief": [TEXTURES], "medium": Medium},
-    World: {"environment": EnvironmentMap},
+    World: {"environment": EnvironmentMap, "mist": Mist},
     LinearTexture: {"textures": [TEXTURES]},
     Shade: {"texture": TEXTURES},
 }
@@ -29,7 +44,7 @@ PARTS = {
 
 def types():
     """{name in the file: type} of all that may stand in a file; plug-ins are named `light/point` by their keys."""
-    values = (Scene, World, EnvironmentMap, Object, Mesh, MeshAttribute, Material, Medium, Lens, Settings, Shade, Bitmap, Coordinates)
+    values = (Scene, World, EnvironmentMap, Mist, Object, Mesh, MeshAttribute, Material, Medium, Lens, Settings, Shade, Bitmap, Coordinates)
     # The two reliefs that there were before textures could be anything.
     plain = {cls.__name__: cls for cls in (*values, NormalMap, BumpMap)}
     plugins = {"bsdf": BSDFS, "light": LIGHTS, "camera": CAMERAS, "texture": TEXTURES}

@@ -5,6 +5,7 @@ from .coordinates import Coordinates
 from .environment import EnvironmentMap
 from .lens import Lens
 from .medium import Medium
+from .mist import Mist
 from .settings import Settings
 from .shade import Shade
 from .values import Material, Mesh, MeshAttribute, Object, Scene, World
@@ -18,6 +19,7 @@ __all__ = [
     "Medium",
     "Mesh",
     "MeshAttribute",
+    "Mist",
     "Object",
     "Scene",
     "Settings",

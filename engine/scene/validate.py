@@ -81,6 +81,8 @@ def _check_material(material):
             raise SceneError(f"material '{material.name}': {lobe.key} {name} is a texture, allowed: a constant")
     if not is_texture(material.alpha) and not 0 <= material.alpha <= 1:
         raise SceneError(f"material '{material.name}': alpha is {material.alpha}, allowed: 0 to 1")
+    if not math.isfinite(material.index):
+        raise SceneError(f"material '{material.name}': index is {material.index}, allowed: finite numbers")
     for relief in material.relief:
         if not is_texture(relief):
             raise SceneError(f"material '{material.name}': its relief {relief!r} is not a texture")
@@ -147,6 +149,7 @@ def _check_shade(shade, owner, warnings):
 
 
 def _check_world(world, warnings):
+    world.mist.check(f"world '{world.name}'")
     environment = world.environment
     if environment is not None and type(environment) is not EnvironmentMap:
         raise SceneError(f"world '{world.name}': {type(environment).__name__} is not an EnvironmentMap")

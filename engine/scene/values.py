@@ -14,6 +14,7 @@ from ..maths.normals import vertex_normals
 from ..maths.poses import between
 from .graphs import is_texture
 from .medium import Medium
+from .mist import Mist
 from .motion import no_motion, settle
 from .textured import attributes_of
 
@@ -187,6 +188,7 @@ class Material:
     Emission, alpha and any parameter of a lobe may be a texture.
     ambient   k_a of the lecture's illumination model, the share of each light that arrives everywhere; no other model knows it
     relief    textures that give normals in world space, such as `NormalMap` and `BumpMap`; each bends what the one before has left
+    index     a number of one's own, for the pass that tells materials apart
     medium    the `Medium` behind surfaces that let light pass; None: nothing is known of it, and nothing is absorbed
     """
 
@@ -197,6 +199,7 @@ class Material:
     alpha: float = 1.0
     medium: Medium | None = None
     relief: tuple = ()
+    index: float = 0.0
 
     def __post_init__(self):
         object.__setattr__(self, "lobes", tuple(self.lobes))
@@ -260,11 +263,13 @@ class World:
 
     radiance     from every direction [W m^-2 sr^-1], linear Rec. 709; or a texture, all of whose coordinates are the direction, unit
     environment  an `EnvironmentMap` that adds to a constant radiance, or None
+    mist         a `Mist`, for the pass of that name
     """
 
     name: str = "World"
     radiance: tuple = (0.0, 0.0, 0.0)
     environment: object = None
+    mist: Mist = field(default_factory=Mist)
 
     def __post_init__(self):
         if not is_texture(self.radiance):

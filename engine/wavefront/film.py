@@ -18,7 +18,7 @@ class Film:
 
     def __init__(self, pixels, passes):
         self.passes = passes
-        self._parts = tuple(p for p in passes if p.records == "light")
+        self._parts = tuple(p for p in passes if p.records in ("light", "first hit and light"))
         self.sums = {p.key: np.zeros((len(p.channels), pixels)) for p in passes}
         self.samples = np.zeros(pixels, np.int64)
         self.bad_samples = 0
@@ -52,6 +52,13 @@ class Film:
         slot = rays.slot.take(lanes)
         for p in self._parts:
             self.recorded[p.key][:, slot] += p.part(plan, rays, lanes, L, light, bounces)
+
+    def meet(self, p, slot, values):
+        """Record `values` (C, M) of the pass `p` where the paths of `slot` (M,) have met something first."""
+        if p in self._parts:
+            self.recorded[p.key][:, slot] += values
+        else:
+            self.recorded[p.key][:, slot] = values
 
     def close(self, is_first):
         """Gather the batch into the pixels; `is_first` says that it begins with sample 0."""

@@ -40,7 +40,7 @@ def _trace(plan, rays, film, is_cancelled):
         for adjust in plan.adjust_reflection:
             reflection = adjust(plan, rays, surface, reflection)
         for p in plan.first_hits if rays.depth == 0 else ():
-            film.recorded[p.key][:, rays.slot] = p.values(plan, rays, surface, reflection)
+            film.meet(p, rays.slot, p.values(plan, rays, surface, reflection))
         if not world.materials.lobes:
             continue
         for add_light in plan.on_surface:

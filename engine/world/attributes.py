@@ -21,6 +21,10 @@ class Attribute:
     row: np.ndarray
     corners: np.ndarray
 
+    def is_there(self, prim):
+        """Whether the meshes of triangles have it, (N,) bool."""
+        return self.row.take(prim) > 0
+
     def at(self, prim, u, v):
         """The value (C, N) at places u, v of triangles, and its changes along u and v, (C, N) each."""
         corner, along_u, along_v = self.corners.take(self.row.take(prim), axis=1).reshape(3, len(self.corners) // 3, -1)

@@ -109,6 +109,7 @@ def compile_world(
     passing_of=None,
     disperses=False,
     before=None,
+    asked=(),
 ):
     """`scene` (validated) as a `CompiledWorld`.
 
@@ -117,7 +118,8 @@ def compile_world(
     bodies, `has_environment` that the world has a picture that gives light, `disperses` that indices depend on the
     wavelength, and `passing_of` (None: nothing passes) makes the `Passing` of the materials. Deforming meshes take
     `motion_steps` shapes, and without any all is as at the middle of the shutter. `before`, a world of the scene as it was, lends
-    the origin of its render space, which is else the camera, and its tree if no triangle is another. Raises SceneError where
+    the origin of its render space, which is else the camera, and its tree if no triangle is another. `asked`
+    are what all meshes and objects have to bring, keys as in `attributes`. Raises SceneError where
     the geometry does not fit into memory.
     """
     materials, row = _number_materials(scene)
@@ -181,7 +183,9 @@ def compile_world(
     # Asked for with every feature there is, it may still be missing or black.
     environment = environment_of(scene.world) if has_environment and scene.world.may_vary else None
     passing = passing_of(materials) if passing_of else None
-    attributes, lost = compile_attributes(parts, keep, material, table.wanted, scene.objects, owner[keep])
+    attributes, lost = compile_attributes(
+        parts, keep, material, table.wanted | dict.fromkeys(asked, range(len(materials))), scene.objects, owner[keep]
+    )
     camera = CameraSpace.of(scene.camera, frame)
     glow = TexturedGlow(table.glowing, triangles, attributes, frame, camera) if table.glowing else EVEN
     lights = Lights.of(scene.lights, environment, emitters, frame, radius, has_choice, samples_lights, glow, camera)

@@ -58,6 +58,7 @@ class Materials:
     straight    {row: the transmittances of that material's lobes that light passes straight on, if it has textured ones}
     glowing     {row: the texture that is the emission of that material}
     relief      {row: the reliefs of that material}
+    index       (M,) float32, `Material.index`
     wanted      {attribute of meshes: rows of the materials whose textures are looked up there}
     Where there is a texture, the tables hold its average.
     """
@@ -73,6 +74,7 @@ class Materials:
     straight: dict
     glowing: dict
     relief: dict
+    index: np.ndarray
     wanted: dict
 
     @classmethod
@@ -103,6 +105,7 @@ class Materials:
         unseen = [row for row in glowing if not emission[:, row].any()]
         emission[:, unseen] = _FAINT
         relief = {row: m.relief for row, m in enumerate(materials) if m.relief}
+        index = np.array([m.index for m in materials], np.float32)
         wanted = {}
         for row, material in enumerate(materials):
             for attribute in material.attributes:
@@ -110,7 +113,9 @@ class Materials:
         straight = {row: [lobe.transmittance for lobe in materials[row].lobes if _is_passed(lobe, bsdfs)] for row in textured}
         shine = emission.copy()
         shine[:, list(glowing)] = 1
-        return cls(tuple(lobes), thresholds_of(shares), shares, emission, shine, ambient, kind, textured, straight, glowing, relief, wanted)
+        return cls(
+            tuple(lobes), thresholds_of(shares), shares, emission, shine, ambient, kind, textured, straight, glowing, relief, index, wanted
+        )
 
     @property
     def rough_lobes(self):

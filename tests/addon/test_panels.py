@@ -83,7 +83,7 @@ def test_panoramas_can_be_edited():
 
 def test_passes_are_drawn():
     drawn = _drawn("GLANZ_VIEWLAYER_PT_passes")
-    assert sorted(drawn) == sorted(row.flag.rpartition(".")[2] for row in passes.TABLE.values() if row.flag)
+    assert sorted(drawn) == sorted({row.flag.rpartition(".")[2] for row in passes.TABLE.values() if row.flag})
     assert {"use_pass_z", "use_pass_glossy_direct", "use_pass_sample_count"} <= {*drawn}
     assert "material_override" in _drawn("GLANZ_VIEWLAYER_PT_override")
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from glanz.engine import PerspectiveCamera, render_image
+from glanz.engine import Mist, PerspectiveCamera, render_image
 from glanz.engine.interfaces import Pass
 from glanz.engine.passes.depth import Depth
 from glanz.engine.registry import PASSES
@@ -23,9 +23,9 @@ def passes_of(scene, **changes):
 def test_a_pass_offers_the_interface(plugin):
     assert isinstance(plugin, Pass)
     assert PASSES[plugin.key] is plugin
-    assert plugin.channels in ("RGBA", "RGB", "X", "Z", "XYZ")
+    assert plugin.channels in ("RGBA", "RGB", "X", "Z", "XYZ", "UVA")
     assert plugin.reduction in ("mean", "first", "sum")
-    assert plugin.records in ("", "first hit", "light")
+    assert plugin.records in ("", "first hit", "light", "first hit and light")
     assert not plugin.records or isinstance(plugin.background, float)
     assert not plugin.divided_by or plugin.divided_by in PASSES
     assert plugin.__doc__.strip()
@@ -48,7 +48,7 @@ def test_a_pass_of_an_empty_scene_is_its_background(plugin):
     values = passes_of(h.scene(world=0.25))[plugin.key]
     if plugin.reduction == "sum":
         assert (values == 4).all()
-    elif plugin.key == "Environment":
+    elif plugin.key in ("Environment", "Denoising Albedo"):
         assert (values == 0.25).all()
     elif plugin.records:
         assert (values == np.float32(plugin.background)).all()
@@ -136,3 +136,48 @@ def test_normals_at_an_edge_are_averaged():
 
 def test_the_picture_is_opaque():
     assert (passes_of(scenes.everything())["Combined"][..., 3] == 1).all()
+
+
+def test_positions_are_in_the_world_where_the_pixel_looks():
+    """On the plane, and less than a pixel from where the ray through its middle meets it; far from the origin, too."""
+    for offset in (np.zeros(3), np.array((1000.0, -2000.0, 500.0))):
+        camera = PerspectiveCamera.look_at(offset + np.array((0, 0, 4)), offset, up=(0, 1, 0), fov=math.radians(40))
+        scene = h.scene([h.thing(h.quad(offset, (50, 0, 0), (0, 50, 0)))], camera=camera)
+        p = passes_of(scene)["Position"] - offset
+        assert np.abs(p[..., 2]).max() <= 1e-3
+        pixel = 2 * 4 * math.tan(math.radians(20)) / 8
+        middle = (np.arange(8) - 3.5) * pixel
+        assert np.abs(p[..., 0] - middle).max() <= pixel / 2 + 1e-3
+        assert np.abs(p[..., 1] + middle[:, None]).max() <= pixel / 2 + 1e-3
+
+
+@pytest.mark.parametrize(("falloff", "share"), [("linear", 0.25), ("quadratic", 0.0625), ("inverse_quadratic", 0.5)])
+def test_mist_grows_with_the_distance_in_a_straight_line(falloff, share):
+    """A quarter of the way through: 1/4, its square, its root, to 1e-5; nothing before it begins, all of it behind."""
+    camera = PerspectiveCamera.look_at((0, 0, 3), (0, 0, 0), up=(0, 1, 0), fov=math.radians(1e-3))
+    scene = h.scene([h.thing(h.quad((0, 0, 0), (50, 0, 0), (0, 50, 0)))], camera=camera)
+    for start, depth, expected in ((2.0, 4.0, share), (4.0, 4.0, 0.0), (0.5, 1.0, 1.0), (2.0, 0.0, 0.0)):
+        misty = h.replaced(scene, world=h.replaced(scene.world, mist=Mist(start=start, depth=depth, falloff=falloff)))
+        np.testing.assert_allclose(passes_of(misty)["Mist"], expected, rtol=1e-5)
+
+
+def test_data_of_surfaces_are_what_the_scene_says():
+    """Coordinates that vary linearly over a quad, the numbers of its object and material, its colour, its normal for the camera."""
+    mesh = h.quad((0, 0, 0), (2, 0, 0), (0, 2, 0))
+    uv = np.array([[[0, 1, 1, 0], [0, 0, 1, 1]]], np.float32)
+    mesh = h.replaced(mesh, uv_layers=("uv",), uvs=uv, uv_indices=mesh.triangles)
+    o = h.thing(mesh, h.replaced(h.lambert((0.2, 0.4, 0.6)), index=7.0))
+    camera = PerspectiveCamera.look_at((0, 0, 1), (0, 0, 0), up=(0, 1, 0), fov=math.radians(45))
+    found = passes_of(h.scene([h.replaced(o, values=(("index", (5, 5, 5, 1)),))], camera=camera), samples=64)
+    top = math.tan(math.radians(22.5))
+    across = 0.5 + 0.5 * top * (np.arange(8) - 3.5) / 4
+    np.testing.assert_allclose(found["UV"][..., 0], np.broadcast_to(across, (8, 8)), atol=2e-3)
+    np.testing.assert_allclose(found["UV"][..., 1], np.broadcast_to(across[::-1, None], (8, 8)), atol=2e-3)
+    assert (found["UV"][..., 2] == 1).all()
+    assert (found["Object Index"] == 5).all()
+    assert (found["Material Index"] == 7).all()
+    np.testing.assert_allclose(found["Denoising Albedo"], np.broadcast_to((0.2, 0.4, 0.6), (8, 8, 3)), rtol=1e-6)
+    np.testing.assert_allclose(found["Denoising Normal"], np.broadcast_to((0, 0, -1), (8, 8, 3)), atol=1e-6)
+    assert 1 <= found["Denoising Depth"].min() <= found["Denoising Depth"].max() < 1.25
+    without = passes_of(h.scene([h.thing(h.quad((0, 0, 0), (2, 0, 0), (0, 2, 0)))], camera=camera))
+    assert not any(without[key].any() for key in ("UV", "Object Index", "Material Index"))

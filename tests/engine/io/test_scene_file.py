@@ -27,6 +27,7 @@ from glanz.engine import (
     Medium,
     Mesh,
     MeshAttribute,
+    Mist,
     NormalMap,
     Object,
     PerspectiveCamera,
@@ -93,6 +94,7 @@ def a_scene():
         ),
         world=World(
             radiance=(0.1, 0.2, 0.3),
+            mist=Mist(start=1 / 3, depth=7, falloff="linear"),
             environment=EnvironmentMap(
                 name="sky", pixels=rng.random((3, 4, 8)), world_from_map=matrix[:3, :3], strength=(1, 2, 1 / 3), interpolation="closest"
             ),

@@ -1,0 +1,23 @@
+"""Where things are."""
+
+import numpy as np
+
+from . import registry
+
+
+@registry.add
+class Position:
+    """Where the first sample meets something, in world space [m]; 0 where nothing is met."""
+
+    key = "Position"
+    label = "Position"
+    channels = "XYZ"
+    records = "first hit"
+    reduction = "first"
+    divided_by = ""
+    background = 0.0
+
+    @staticmethod
+    def values(plan, rays, surface, reflection):
+        # In double precision: what is far from the origin of the world is rounded once.
+        return surface.p / np.float64(plan.world.frame.scale) + plan.world.frame.origin[:, None]

@@ -1,0 +1,27 @@
+"""Where on their textures things are."""
+
+import numpy as np
+
+from . import registry
+
+_UV = ("uv", "")
+
+
+@registry.add
+class Uv:
+    """The texture coordinates of the first layer, and 1 where a mesh has any, averaged; 0 where nothing is met."""
+
+    key = "UV"
+    label = "UV"
+    channels = "UVA"
+    records = "first hit"
+    reduction = "mean"
+    divided_by = ""
+    background = 0.0
+    attributes = (_UV,)
+
+    @staticmethod
+    def values(plan, rays, surface, reflection):
+        found = plan.world.attributes[_UV]
+        uv, _, _ = found.at(surface.prim, surface.u, surface.v)
+        return np.stack((uv[0], uv[1], found.is_there(surface.prim)))
