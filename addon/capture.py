@@ -11,12 +11,13 @@ import bpy
 
 from ..engine import GlanzError, SceneError
 from . import SETTINGS
-from .export import export_scene
+from .export import Findings, export_scene
+from .export.findings import IGNORED
 from .files import open_blend, save_png
 from .reports import describe
 from .settings import settings_of
 
-__all__ = ["capture", "open_blend", "save_png"]
+__all__ = ["Findings", "capture", "open_blend", "save_png"]
 
 
 class GlanzCaptureEngine(bpy.types.RenderEngine):
@@ -28,6 +29,8 @@ class GlanzCaptureEngine(bpy.types.RenderEngine):
 
     # What the next run shall do, and what came of it; Blender makes the instances, so the class carries both.
     overrides = None
+    findings = None
+    strict = None
     outcome = None
 
     def __init__(self, *args, **kwargs):
@@ -44,32 +47,38 @@ class GlanzCaptureEngine(bpy.types.RenderEngine):
         settings = settings_of(depsgraph.scene_eval, depsgraph.view_layer_eval, **self.overrides)
         views = [view.name for view in depsgraph.scene.render.views if view.use] if depsgraph.scene.render.use_multiview else []
         self.active_view_set(views[0] if views else "")
-        scene, warnings = export_scene(depsgraph, settings, self._camera, frame_set=self.frame_set)
+        scene, _ = export_scene(depsgraph, settings, self._camera, frame_set=self.frame_set, findings=self.findings)
         if len(views) > 1:
-            warnings = (*warnings, f"only view '{views[0]}' is rendered, not: {', '.join(views[1:])}")
-        return scene, settings, warnings
+            self.findings.note(f"only view '{views[0]}' is rendered, not: {', '.join(views[1:])}", "", IGNORED)
+        if depsgraph.scene_eval.glanz.strict if self.strict is None else self.strict:
+            self.findings.raise_if_lost(depsgraph.scene_eval.name)
+        return scene, settings, self.findings.lines()
 
     def _camera(self):
         camera = self.camera_override
         return camera, camera and self.camera_model_matrix(camera), camera and self.camera_shift_x(camera)
 
 
-def capture(frame=None, scene_name=None, view_layer=None, overrides=None):
+def capture(frame=None, scene_name=None, view_layer=None, overrides=None, strict=None, findings=None):
     """(scene, settings, warnings) of the open file: engine `Scene` and `Settings`, and a tuple of lines.
 
     frame       to go to first; None: where the file is. The file stays there, since simulations cannot go back
     scene_name  None: the active scene
     view_layer  its name; None: the first one that is used for rendering
     overrides   {field of `Settings`: value}; the file's settings hold for all others
+    strict      whether it is an error that something is left out or missing; None: as the scene says
+    findings    `Findings` that keep the warnings as notes, too
     Raises GlanzError naming the cause where there is nothing to render. Nothing on disk changes, and in memory
     nothing but the frame.
     """
     scene = _scene(scene_name)
-    layer, notes = _view_layer(scene, view_layer)
+    findings = findings or Findings()
+    layer = _view_layer(scene, view_layer, findings)
     if frame is not None:
         scene.frame_set(frame)
     with _registered(), _render_settings(scene.render):
-        GlanzCaptureEngine.overrides = dict(overrides or {})
+        GlanzCaptureEngine.overrides, GlanzCaptureEngine.findings = dict(overrides or {}), findings
+        GlanzCaptureEngine.strict = strict
         GlanzCaptureEngine.outcome = None
         try:
             bpy.ops.render.render(scene=scene.name, layer=layer.name)
@@ -83,8 +92,7 @@ def capture(frame=None, scene_name=None, view_layer=None, overrides=None):
         if isinstance(outcome, (GlanzError, KeyboardInterrupt)):
             raise outcome
         raise SceneError(f"scene '{scene.name}' cannot be exported: {describe(outcome)}") from outcome
-    scene_value, settings, warnings = outcome
-    return scene_value, settings, (*notes, *warnings)
+    return outcome
 
 
 def _scene(name):
@@ -95,15 +103,16 @@ def _scene(name):
     return bpy.data.scenes[name]
 
 
-def _view_layer(scene, name):
-    """(view layer, notes): the one called `name`, or the first that is used."""
+def _view_layer(scene, name, findings):
+    """The view layer called `name`, or the first that is used; then the others are noted."""
     if name is not None:
         if name not in scene.view_layers:
             raise SceneError(f"scene '{scene.name}' has no view layer '{name}'; it has: {', '.join(v.name for v in scene.view_layers)}")
-        return scene.view_layers[name], ()
+        return scene.view_layers[name]
     used = [layer for layer in scene.view_layers if layer.use] or list(scene.view_layers)
-    others = ", ".join(layer.name for layer in used[1:])
-    return used[0], (f"only view layer '{used[0].name}' is rendered, not: {others}",) if others else ()
+    if others := ", ".join(layer.name for layer in used[1:]):
+        findings.note(f"only view layer '{used[0].name}' is rendered, not: {others}", "", IGNORED)
+    return used[0]
 
 
 def _refusal(scene, error):

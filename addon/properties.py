@@ -167,6 +167,14 @@ class GlanzSceneSettings(bpy.types.PropertyGroup):
         min=1,
         max=6,
     )
+    strict: BoolProperty(
+        name="Strict",
+        description=(
+            "What Glanz would leave out, and images, node groups and libraries that are missing, are errors before rendering, "
+            "all in one list. Off: they are warnings, as is always what is rendered approximately"
+        ),
+        default=False,
+    )
     tile_size: IntProperty(
         name="Tile Size",
         description=(

@@ -47,7 +47,7 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
     def _render(self, depsgraph):
         backend.load_or_raise()
         from ..engine import metadata, render
-        from .export import export_views
+        from .export import Findings, export_views
         from .results import make_room, stamp, write_tile
         from .settings import settings_of
 
@@ -56,7 +56,10 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
         views = make_room(self, settings, layer)
         self.update_stats("", "Exporting the scene")
         warnings = Warnings(self)
-        scenes, notes = export_views(depsgraph, settings, [partial(self._camera, view) for view in views], self._check, self.frame_set)
+        findings, cameras = Findings(), [partial(self._camera, view) for view in views]
+        scenes, notes = export_views(depsgraph, settings, cameras, self._check, self.frame_set, findings)
+        if depsgraph.scene_eval.glanz.strict:
+            findings.raise_if_lost(depsgraph.scene_eval.name)
         warnings.show(notes)
         stamp(self, metadata(scenes[0], settings))
         self.update_stats("", "Preparing the scene")

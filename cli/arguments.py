@@ -67,6 +67,7 @@ def _add_render(commands):
     command.add_argument(
         "--border", type=border, metavar="X0,Y0,X1,Y1", help="render this part only: fractions of the frame from the bottom left"
     )
+    _add_strict(command)
     command.add_argument("--quiet", action="store_true", help="print warnings and errors only")
 
 
@@ -94,6 +95,7 @@ def _add_export(commands):
     command.add_argument("-o", "--output", required=True, metavar="SCENE", help="scene file to write")
     _add_scene(command)
     _add_frame(command)
+    _add_strict(command)
 
 
 def _add_file(command):
@@ -102,6 +104,10 @@ def _add_file(command):
 
 def _add_scene(command):
     command.add_argument("--scene", metavar="S", help="name of the scene in the .blend file; the active one if not given")
+
+
+def _add_strict(command):
+    command.add_argument("--strict", action="store_true", help="fail if anything of the scene would be left out or is missing")
 
 
 def _add_frame(command):

@@ -40,7 +40,7 @@ def render(arguments, terminal):
             check_writable(numbered(output, frame, is_sequence))
     source = open_source(arguments.file, arguments.scene, terminal.keep_stdout_for_us)
     for frame in frames:
-        shot = source.shot(frame, arguments.resolution)
+        shot = source.shot(frame, arguments.resolution, arguments.strict or None)
         settings = _overridden(shot.settings, arguments)
         for warning in shot.warnings:
             terminal.warn(warning)
@@ -54,7 +54,7 @@ def render(arguments, terminal):
 
 def info(arguments, terminal):
     """Say what the scene requires and what is approximated or ignored."""
-    shot = open_source(arguments.file, arguments.scene, terminal.keep_stdout_for_us).shot(arguments.frame)
+    shot = open_source(arguments.file, arguments.scene, terminal.keep_stdout_for_us).shot(arguments.frame, strict=False)
     scene, warnings = validate(shot.scene, shot.settings)
     settings = dataclasses.asdict(shot.settings)
     requirements = Requirements.of(scene, shot.settings)
@@ -81,7 +81,7 @@ def info(arguments, terminal):
 def export(arguments, terminal):
     """Write one frame as a scene file."""
     check_writable(arguments.output)
-    shot = open_source(arguments.file, arguments.scene, terminal.keep_stdout_for_us).shot(arguments.frame)
+    shot = open_source(arguments.file, arguments.scene, terminal.keep_stdout_for_us).shot(arguments.frame, strict=arguments.strict or None)
     for warning in shot.warnings:
         terminal.warn(warning)
     with terminal.stopper.orderly():

@@ -17,12 +17,16 @@ LIBRARIES = "libgl1 libice6 libsm6 libx11-6 libxfixes3 libxi6 libxkbcommon0 libx
 
 @dataclass(frozen=True)
 class Shot:
-    """One picture to make: the engine's values, the frame's number (None: a file without frames), what was approximated."""
+    """One picture to make: the engine's values, the frame's number (None: a file without frames), what was approximated.
+
+    `notes` are the warnings of a .blend file, each with what it is about.
+    """
 
     scene: object
     settings: object
     frame: int | None
     warnings: tuple = ()
+    notes: tuple = ()
 
 
 def open_source(path, scene_name, before_blender):
@@ -60,11 +64,15 @@ class _Blend:
         self._scene_name = scene_name
         capture.open_blend(path)
 
-    def shot(self, frame=None, size=None):
-        """The `Shot` of a frame, None: the current one; `size` (width, height) replaces the file's resolution."""
+    def shot(self, frame=None, size=None, strict=None):
+        """The `Shot` of a frame, None: the current one; `size` (width, height) replaces the file's resolution.
+
+        `strict`: whether it is an error that something is left out or missing, None: as the file says.
+        """
         overrides = {"width": size[0], "height": size[1]} if size else {}
-        scene, settings, warnings = self._capture.capture(frame, self._scene_name, overrides=overrides)
-        return Shot(scene, settings, self._current_frame() if frame is None else frame, tuple(warnings))
+        findings = self._capture.Findings()
+        scene, settings, warnings = self._capture.capture(frame, self._scene_name, overrides=overrides, strict=strict, findings=findings)
+        return Shot(scene, settings, self._current_frame() if frame is None else frame, warnings, findings.notes)
 
     def save_png(self, image, path):
         """Write `image` through the scene's own view transform."""
@@ -85,8 +93,11 @@ class _SceneFile:
         if scene_name not in (None, self._scene.name):
             raise SceneError(f"'{path}' has no scene '{scene_name}'; it holds: {self._scene.name}")
 
-    def shot(self, frame=None, size=None):
-        """The one `Shot`; `size` (width, height) replaces its resolution, and the longer side keeps its field of view."""
+    def shot(self, frame=None, size=None, strict=None):
+        """The one `Shot`; `size` (width, height) replaces its resolution, and the longer side keeps its field of view.
+
+        Nothing is left out of what a scene file says: `strict` asks for nothing more.
+        """
         if frame is not None:
             raise SceneError(f"'{self._path}' is a scene file, which holds one frame without a number")
         if not size:

@@ -6,7 +6,8 @@ import pytest
 
 import glanz
 from glanz import engine
-from glanz.addon.capture import capture, open_blend, save_png
+from glanz.addon.capture import Findings, capture, open_blend, save_png
+from glanz.engine import SceneError
 from glanz.tests.addon import blender
 
 
@@ -45,6 +46,19 @@ def test_what_a_file_stores_about_materials_and_lights_counts_where_glanz_is_not
     assert warnings == ()
     assert [light.exponent for light in value.lights] == [3.5]
     assert [lobe.abbe for lobe in value.objects[0].materials[0].lobes] == [42]
+
+
+def test_strict_is_as_the_scene_says_or_as_the_caller_wishes(scene):
+    blender.link("Smoke", bpy.data.volumes.new("Smoke"))
+    findings = Findings()
+    assert "Smoke" in capture(findings=findings)[2][0]
+    assert [note.datablock for note in findings.notes] == [("object", "Smoke")]
+    with pytest.raises(SceneError, match=r"(?s)strict.*'Smoke'"):
+        capture(strict=True)
+    scene.glanz.strict = True
+    assert capture(strict=False)[2]
+    with pytest.raises(SceneError, match=r"(?s)strict.*'Smoke'"):
+        capture()
 
 
 def test_overrides_and_the_camera_agree(scene):

@@ -5,10 +5,10 @@ from types import SimpleNamespace
 import bpy
 import pytest
 
-from glanz.addon import builtin_panels, panels, passes
+from glanz.addon import builtin_panels, panels, passes, requirements_panel
 from glanz.tests.addon import blender
 
-OWN = {panel.__name__: panel for panel in panels._CLASSES}
+OWN = {panel.__name__: panel for panel in (*panels._CLASSES, *requirements_panel._CLASSES)}
 
 
 class Layout:
@@ -54,7 +54,7 @@ def _drawn(name, ob=None):
 
 
 def test_settings_are_drawn():
-    panels_of_render = ("sampling", "viewport", "light_paths", "film", "motion_blur", "performance")
+    panels_of_render = ("sampling", "viewport", "light_paths", "film", "motion_blur", "performance", "requirements")
     names = []
     for integrator in ("path", "distributed", "whitted_phong"):
         bpy.context.scene.glanz.integrator = integrator

@@ -138,6 +138,16 @@ def _fail(error):
     return fail
 
 
+def test_a_strict_scene_is_not_rendered_where_something_would_be_left_out(furnace, tmp_path):
+    bpy.context.scene.glanz.strict = True
+    whole = blender.render(tmp_path / "whole.exr")
+    bpy.context.scene.render.use_freestyle = True
+    blender.link("Smoke", bpy.data.volumes.new("Smoke"))
+    with pytest.raises(RuntimeError, match=r"(?s)strict.*freestyle.*'Scene'.*volumes.*'Smoke'"):
+        blender.render(tmp_path / "part.exr")
+    assert list(tmp_path.iterdir()) == [whole]
+
+
 @pytest.mark.parametrize("error", [ValueError("broken"), SystemExit(0), KeyboardInterrupt(), MemoryError()])
 def test_an_error_in_the_export_fails_the_operator_and_writes_no_file(error, furnace, tmp_path, monkeypatch):
     monkeypatch.setattr("glanz.addon.export.objects.export_mesh", _fail(error))

@@ -23,6 +23,10 @@ for frame, x in ((1, 0.0), (3, 1.0)):
     cube.location.x = x
     cube.keyframe_insert("location", frame=frame)
 bpy.data.scenes.new("Blind")
+smoky = bpy.data.scenes.new("Smoky")
+smoky.camera = scene.camera
+for ob in (scene.camera, bpy.data.objects.new("Smoke", bpy.data.volumes.new("Smoke"))):
+    smoky.collection.objects.link(ob)
 bpy.ops.wm.save_as_mainfile(filepath=os.path.abspath("scene.blend"))
 sys.stdout.flush()
 os._exit(0)
@@ -106,6 +110,8 @@ def test_info_prints_json_and_nothing_else(glanz):
         ("render scene.blend --scene Nope", "Nope"),
         ("render scene.blend --scene Blind", "no camera"),
         ("info scene.blend --scene Blind", "no camera"),
+        ("render scene.blend --scene Smoky --strict", "volumes are not rendered: object 'Smoke'"),
+        ("export scene.blend --scene Smoky --strict -o a.glanz", "'Smoke'"),
         ("render text.blend", "text.blend"),
         ("render cut.blend", "cut.blend"),
         ("render scene.blend --samples 0", "samples is 0"),
