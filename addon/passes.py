@@ -53,7 +53,7 @@ TABLE = {
 
 
 def offered():
-    """{key: (pass class of the engine, BlenderPass)} of the passes that both sides know; empty without the engine."""
+    """{key: (pass class of the engine, BlenderPass)} of the table's passes that the engine knows; empty without the engine."""
     engine = backend.engine()
     registry = engine.PASSES if engine else {}
     return {key: (plugin, TABLE[key]) for key, plugin in registry.items() if key in TABLE}
@@ -61,7 +61,18 @@ def offered():
 
 def chosen(view_layer):
     """Keys of the passes that are switched on in `view_layer`; Combined always is."""
-    return tuple(key for key, (_, row) in offered().items() if not row.flag or getattr(*switch(view_layer, row.flag), False))
+    of_table = (key for key, (_, row) in offered().items() if not row.flag or getattr(*switch(view_layer, row.flag), False))
+    return (*of_table, *(key for family in FAMILIES for key in family(view_layer)))
+
+
+def _cryptomattes(view_layer):
+    levels = range((view_layer.pass_cryptomatte_depth + 1) // 2)
+    kinds = [kind for kind in ("Object", "Material", "Asset") if getattr(view_layer, f"use_pass_cryptomatte_{kind.lower()}")]
+    return [f"Crypto{kind}{level:02}" for kind in kinds for level in levels]
+
+
+FAMILIES = (_cryptomattes,)
+"""Functions that say which passes of the engine's families are switched on in a view layer."""
 
 
 def name_of(key):
@@ -69,7 +80,7 @@ def name_of(key):
     # Not above: the command line knows this module where there is no Blender.
     import bpy
 
-    row = TABLE[key]
+    row = TABLE.get(key, BlenderPass("COLOR"))
     return row.before_5 if row.before_5 and bpy.app.version < (5, 0) else key
 
 
@@ -93,7 +104,7 @@ def attributes(keys):
 
 def register_passes(engine, scene, view_layer):
     """Tell Blender which passes `view_layer` will get, so that files and the compositor make room for them."""
-    available = offered()
-    for key in chosen(view_layer):
-        plugin, row = available[key]
-        engine.register_pass(scene, view_layer, name_of(key), len(plugin.channels), plugin.channels, row.kind)
+    for key in chosen(view_layer) if backend.engine() else ():
+        plugin = backend.engine().PASSES[key]
+        kind = TABLE[key].kind if key in TABLE else "VALUE" if len(plugin.channels) == 1 else "COLOR"
+        engine.register_pass(scene, view_layer, name_of(key), len(plugin.channels), plugin.channels, kind)

@@ -61,7 +61,7 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
         if depsgraph.scene_eval.glanz.strict:
             findings.raise_if_lost(depsgraph.scene_eval.name)
         warnings.show(notes)
-        stamp(self, metadata(scenes[0], settings))
+        stamp(self, metadata(scenes[0], settings, layer))
         self.update_stats("", "Preparing the scene")
         status = Status(self, settings.samples)
         for number, (view, scene) in enumerate(zip(views, scenes, strict=True)):

@@ -303,10 +303,12 @@ class Pass(Protocol):
                 "light": of all light that `wavefront.film.Film.add` is told of its `part(plan, rays, lanes, L, light, bounces)` (C, M);
                 "first hit and light": the sum of both, its `background` is 0;
                 "": nothing, it is what `gather(film)` (C, slots) makes of the film at the end
-    reduction   what a pixel is of its samples: their "mean", the "first" of them, or their "sum"
+    reduction   what a pixel is of its samples: their "mean", the "first" of them, their "sum", or of "ranks": what covers most of it;
+                then there are two `rows` of values, a number and how much it counts, see `wavefront.ranks`
     divided_by  the pass whose share it is, and by which it is divided at the end; "" for none
 
-    One that looks up what meshes and objects bring has `attributes`, keys as in `world.attributes`.
+    One that looks up what meshes and objects bring has `attributes`, keys as in `world.attributes`; `facts(scene, layer)`
+    {str: str}, if there are any, are what files have to say of it. Passes that scenes name are of families, see `Registry`.
 
     One that records light and asks by which kinds of lobes it has left the first surface says `is_split = True`, see
     `wavefront.splitting`.

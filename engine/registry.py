@@ -14,14 +14,31 @@ class Registry(dict):
     def __init__(self, kind):
         super().__init__()
         self.kind = kind
+        self.families = []
 
     def add(self, plugin):
         """Class decorator, outermost (a slotted dataclass is a new class)."""
         self[plugin.key] = plugin
         return plugin
 
+    def add_family(self, family):
+        """Class decorator of plug-ins whose names have parts that scenes choose: `family.of(name)` is the plug-in, None for other names."""
+        self.families.append(family)
+        return family
+
     def __missing__(self, name):
-        raise KeyError(f"unknown {self.kind} '{name}'; known: {', '.join(self)}")
+        found = next(filter(None, (family.of(name) for family in self.families)), None)
+        if found is None:
+            raise KeyError(f"unknown {self.kind} '{name}'; known: {self.known}")
+        return found
+
+    def __contains__(self, name):
+        return super().__contains__(name) or any(family.of(name) for family in self.families)
+
+    @property
+    def known(self):
+        """The names that there are, for people; of families, what they are like."""
+        return ", ".join((*self, *(family.pattern for family in self.families)))
 
     def discover(self, package, path):
         """Import every module of the plug-in folder `package` (its `__name__` and `__path__`)."""

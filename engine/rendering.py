@@ -11,6 +11,7 @@ import numpy as np
 
 from .constants import VERSION
 from .plan import Plan
+from .registry import PASSES
 from .requirements import Requirements
 from .scene.validate import validate
 from .wavefront.camera_rays import camera_rays
@@ -130,8 +131,11 @@ def render_image(scene, settings, on_progress=None):
     return Image(x1 - x0, y1 - y0, passes, metadata(scene, settings), tuple(warnings))
 
 
-def metadata(scene, settings):
-    """What a file should say about how its picture was made, {str: str}."""
+def metadata(scene, settings, layer=""):
+    """What a file should say about how its picture was made, {str: str}; `layer` stands in front of the names of its channels."""
+    facts = {}
+    for p in (PASSES[key] for key in settings.passes):
+        facts |= p.facts(scene, layer) if hasattr(p, "facts") else {}
     return {
         "glanz.version": VERSION,
         "glanz.scene": scene.name,
@@ -146,6 +150,7 @@ def metadata(scene, settings):
         "glanz.adaptive_levels": str(settings.adaptive_levels),
         "glanz.pixel_filter": settings.pixel_filter,
         "glanz.requirements": ", ".join(Requirements.of(scene, settings).needs),
+        **facts,
     }
 
 

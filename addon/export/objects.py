@@ -33,12 +33,13 @@ _RAY_VISIBILITY = ("visible_camera", "visible_diffuse", "visible_glossy", "visib
 
 @dataclass(frozen=True)
 class _Placed:
-    """An instance before its matrix is checked: who it is, what it is made of, and the names of the values that are asked of it."""
+    """An instance before its matrix is checked: who it is, what it is made of, the names of the values it is asked for, whose part it is."""
 
     name: str
     mesh: object
     materials: tuple
     asked: tuple
+    asset: str
 
 
 def export_objects(
@@ -99,7 +100,9 @@ def _placed_objects(parts, matrices, values, findings):
             cause, kind = ("the scale leaves no surface", APPROXIMATED) if is_finite else ("the transform is not finite", IGNORED)
             findings.note(f"{cause}, so it is left out", f"object '{part.name}'", kind)
     return [
-        Object(name=part.name, mesh=part.mesh, world_from_object=matrix, materials=part.materials, values=own) if is_visible else None
+        Object(name=part.name, mesh=part.mesh, world_from_object=matrix, materials=part.materials, values=own, asset=part.asset)
+        if is_visible
+        else None
         for part, matrix, own, is_visible in zip(parts, matrices, values, visible, strict=True)
     ]
 
@@ -125,6 +128,13 @@ def has_polygons(ob):
 def _exported(ob, attributes):
     with mesh_of(ob) as mesh:
         return export_mesh(mesh, ob.data.name, attributes, [group.name for group in ob.vertex_groups])
+
+
+def _top(ob):
+    """What an object is a part of: its parent's parent, and so on, or itself."""
+    while ob.parent:
+        ob = ob.parent
+    return ob
 
 
 class _Parts:
@@ -163,7 +173,7 @@ class _Parts:
         values = tuple(self._material(material) for material in materials)
         attributes = frozenset(self._asked).union(*(value.attributes for value in values))
         asked = tuple(sorted(name for source, name in attributes if source == "value"))
-        return _Placed(ob.name, self._mesh(ob, frozenset(a for a in attributes if a[0] not in _OF_OBJECTS)), values, asked)
+        return _Placed(ob.name, self._mesh(ob, frozenset(a for a in attributes if a[0] not in _OF_OBJECTS)), values, asked, _top(ob).name)
 
     def _mesh(self, ob, attributes):
         self._note_missing(ob.data, attributes)

@@ -29,7 +29,7 @@ def validate(scene, settings):
         *((PASSES, key) for key in settings.passes),
     ):
         if key not in registry:
-            raise SceneError(f"unknown {registry.kind} '{key}'; known: {', '.join(registry)}")
+            raise SceneError(f"unknown {registry.kind} '{key}'; known: {registry.known}")
     if scene.camera is None:
         raise SceneError(f"scene '{scene.name}' has no camera")
     if type(scene.camera) not in CAMERAS.values():

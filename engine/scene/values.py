@@ -224,6 +224,7 @@ class Object:
                        open; none (0, 4, 4): it stands still. `world_from_object` is then set to the middle
     values             what textures can ask about it: pairs (name, four numbers), such as ("colour", (r, g, b, alpha)) and
                        ("random", (x, x, x, 1)); what is not among them is 0
+    asset              the name of what it is a part of; empty: its own
     Raises SceneError for values of another form.
     """
 
@@ -233,6 +234,7 @@ class Object:
     materials: tuple = ()
     motion: np.ndarray = field(default_factory=no_motion)
     values: tuple = ()
+    asset: str = ""
 
     def __post_init__(self):
         settle(self, "object", "world_from_object")

@@ -184,7 +184,7 @@ def difference(a, b):
 
 def _gathered(reduction, levels, divided):
     """What cells hold (C, cells), by level, gathered from the smallest into the pixels (C, P)."""
-    if reduction == "first":
+    if reduction in ("first", "ranks"):
         return levels[0]
     for larger, parts, lanes in zip(levels[-2::-1], levels[:0:-1], divided[::-1]):
         total = parts[:, 0::4] + parts[:, 1::4] + parts[:, 2::4] + parts[:, 3::4]

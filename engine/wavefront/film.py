@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from .ranks import Ranks
+
 BACKGROUND = -1
 """The place in `world.lights` of a world that is the same everywhere: it is not among them."""
 
@@ -19,7 +21,7 @@ class Film:
     def __init__(self, pixels, passes):
         self.passes = passes
         self._parts = tuple(p for p in passes if p.records in ("light", "first hit and light"))
-        self.sums = {p.key: np.zeros((len(p.channels), pixels)) for p in passes}
+        self.sums = {p.key: Ranks(pixels) if p.reduction == "ranks" else np.zeros((len(p.channels), pixels)) for p in passes}
         self.samples = np.zeros(pixels, np.int64)
         self.bad_samples = 0
 
@@ -34,7 +36,7 @@ class Film:
         slots = samples * (window.stop - window.start)
         self.radiance = np.zeros((3, slots), np.float32)
         self.clear = np.zeros((1, slots), np.float32)
-        self.recorded = {p.key: np.full((len(p.channels), slots), p.background, np.float32) for p in self.passes if p.records}
+        self.recorded = {p.key: np.full((_rows(p), slots), p.background, np.float32) for p in self.passes if p.records}
 
     def add(self, plan, rays, lanes, L, light, bounces):
         """Add radiance L (3, M) to the paths that `rays` of the indices `lanes` (M,) belong to, each at most once.
@@ -74,6 +76,12 @@ class Film:
         for p in self.passes:
             values = self.recorded[p.key] if p.records else p.gather(self)
             samples = values.reshape(len(values), self._count, -1)
+            if p.reduction == "ranks":
+                number, weight = samples
+                self.sums[p.key].add(
+                    self._window.start, number, weight * np.reshape(self._weights, (-1, 1)) if len(self._weights) else weight
+                )
+                continue
             total = self.sums[p.key][:, self._window]
             if p.reduction == "first":
                 total += samples[:, 0] if is_first else 0
@@ -86,11 +94,24 @@ class Film:
     def pixels(self):
         """{pass: (C, P) float64} of the samples gathered so far; 0, alpha too, for pixels without any."""
         count = np.maximum(self.samples, 1)
-        return {p.key: self.sums[p.key] / (count if p.reduction == "mean" else 1) for p in self.passes}
+        return {p.key: _reduced(p, self.sums[p.key], count) for p in self.passes}
 
     def result(self):
         """`pixels` as they are shown, see `shown`."""
         return shown(self.passes, self.pixels())
+
+
+def _rows(p):
+    """How many numbers a pass writes down of each path."""
+    return getattr(p, "rows", len(p.channels))
+
+
+def _reduced(p, total, count):
+    if p.reduction == "ranks":
+        pairs = total.pairs(p.level)
+        pairs[1::2] /= count
+        return pairs
+    return total / (count if p.reduction == "mean" else 1)
 
 
 def shown(passes, values):

@@ -10,6 +10,7 @@ bounces; the next one absorbs what it should let pass, as it does for shadow ray
 """
 
 import dataclasses
+from functools import partial
 
 import numpy as np
 
@@ -19,6 +20,7 @@ from ..scene.textured import luminance
 from ..world.interaction import leave_on_either_side
 from ..world.texturing import TexturePoints, clean
 from .numbers import Dimension
+from .texturing import points_of
 from .views import RayView
 from .visibility import blocked, travel
 
@@ -115,6 +117,21 @@ def _behind(plan, rays, hits):
     for stage in plan.on_passing:
         stage(plan, rays, surface)
     return leave_on_either_side(surface, rays.d)
+
+
+def opacity(plan, rays, surface):
+    """The share (N,) of a pixel that a `surface` covers where camera `rays` have stayed: on average what it does not let pass."""
+    table, share = plan.world.passing, rays.beta.mean(axis=0)
+    if table is None:
+        return share
+    clear = table.transmittance.take(surface.material, axis=1)
+    for row, textures in table.veils.items():
+        own = np.nonzero(surface.material == row)[0]
+        if own.size:
+            points = points_of(plan, rays, surface).take(own).met(partial(surface.take, own))
+            for texture in textures:
+                clear[:, own] = np.minimum(clear[:, own] + clean(points.value(texture)), 1)
+    return share * (1 - clear.mean(axis=0))
 
 
 def unblocked_through(plan, rays, o, d, limit, candidate):

@@ -4,9 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..maths.murmur import id_of
 from ..maths.tangents import corner_tangents, flat_normals
 
-OF_OBJECTS = ("value", "world_from_object", "object_from_world")
+OF_OBJECTS = ("value", "world_from_object", "object_from_world", "name of object", "name of asset")
 """The sources of attributes that are the same all over an object."""
 
 
@@ -65,6 +66,7 @@ def compile_attributes(parts, keep, material, wanted, objects, owner):
     tangent                (4,) the tangent of a uv layer in object space, and the side of the bitangent, see `maths.tangents`
     value                  (4,) of `Object.values`, or the location of the object
     world_from_object, object_from_world  (12,) the rows of the matrix
+    name of object, name of asset         (1,) the number of the name, see `maths.murmur`
     """
     found, warnings = {}, []
     ends = np.cumsum([part.owner.size for part in parts])
@@ -95,17 +97,20 @@ def compile_attributes(parts, keep, material, wanted, objects, owner):
     return found, tuple(warnings)
 
 
+_SIZES = {"value": 4, "name of object": 1, "name of asset": 1}
 _COMPONENTS = {"number": 1, "alpha": 1, "colour alpha": 1, "tangent": 4}
 
 
 def _of_objects(objects, source, name):
     if source == "value":
         rows = [dict(o.values).get(name, (*o.world_from_object[:3, 3], 1) if name == "location" else (0, 0, 0, 0)) for o in objects]
+    elif source.startswith("name of"):
+        rows = [(id_of((source.endswith("asset") and o.asset) or o.name),) for o in objects]
     else:
         matrices = (o.world_from_object for o in objects)
         # What is flattened has no inverse, but one that leads back into its plane.
         rows = [(m if source == "world_from_object" else np.linalg.pinv(m))[:3].ravel() for m in matrices]
-    return np.array(rows, np.float32).T.reshape(4 if source == "value" else 12, -1)
+    return np.array(rows, np.float32).T.reshape(_SIZES.get(source, 12), -1)
 
 
 def _corners(part, triangles, source, name):

@@ -59,6 +59,7 @@ class Materials:
     glowing     {row: the texture that is the emission of that material}
     relief      {row: the reliefs of that material}
     index       (M,) float32, `Material.index`
+    names       of the materials, a tuple
     wanted      {attribute of meshes: rows of the materials whose textures are looked up there}
     Where there is a texture, the tables hold its average.
     """
@@ -75,6 +76,7 @@ class Materials:
     glowing: dict
     relief: dict
     index: np.ndarray
+    names: tuple
     wanted: dict
 
     @classmethod
@@ -106,6 +108,7 @@ class Materials:
         emission[:, unseen] = _FAINT
         relief = {row: m.relief for row, m in enumerate(materials) if m.relief}
         index = np.array([m.index for m in materials], np.float32)
+        names = tuple(m.name for m in materials)
         wanted = {}
         for row, material in enumerate(materials):
             for attribute in material.attributes:
@@ -113,9 +116,8 @@ class Materials:
         straight = {row: [lobe.transmittance for lobe in materials[row].lobes if _is_passed(lobe, bsdfs)] for row in textured}
         shine = emission.copy()
         shine[:, list(glowing)] = 1
-        return cls(
-            tuple(lobes), thresholds_of(shares), shares, emission, shine, ambient, kind, textured, straight, glowing, relief, index, wanted
-        )
+        per_row = textured, straight, glowing, relief, index, names
+        return cls(tuple(lobes), thresholds_of(shares), shares, emission, shine, ambient, kind, *per_row, wanted)
 
     @property
     def rough_lobes(self):

@@ -118,15 +118,15 @@ def render(path):
     return path
 
 
-def read_exr(path):
-    """{"Layer.Pass": (height, width, channels) float32}, row 0 at the top, channels in the order of Blender's names."""
+def read_exr(path, order="RGBAXYZ"):
+    """{"Layer.Pass": (height, width, channels) float32}, row 0 at the top, channels in the `order` of Blender's names."""
     passes = {}
     with OpenEXR.File(str(path), separate_channels=True) as file:
         for part in file.parts:
             for name, channel in part.channels.items():
                 key, _, letter = name.rpartition(".")
                 passes.setdefault(key, {})[letter] = np.array(channel.pixels)
-    return {key: np.stack([c[k] for k in sorted(c, key="RGBAXYZ".find)], axis=-1) for key, c in passes.items()}
+    return {key: np.stack([c[k] for k in sorted(c, key=order.find)], axis=-1) for key, c in passes.items()}
 
 
 def header(path):

@@ -11,8 +11,10 @@ from glanz.engine.passes.depth import Depth
 from glanz.engine.registry import PASSES
 from glanz.tests import helpers as h, scenes
 
-each = pytest.mark.parametrize("plugin", PASSES.values(), ids=lambda p: p.key)
-ALL = tuple(PASSES)
+OF_FAMILIES = ("CryptoObject00", "CryptoMaterial01", "CryptoAsset00")
+"""At least one of each."""
+ALL = (*PASSES, *OF_FAMILIES)
+each = pytest.mark.parametrize("plugin", [PASSES[key] for key in ALL], ids=lambda p: p.key)
 
 
 def passes_of(scene, **changes):
@@ -22,9 +24,9 @@ def passes_of(scene, **changes):
 @each
 def test_a_pass_offers_the_interface(plugin):
     assert isinstance(plugin, Pass)
-    assert PASSES[plugin.key] is plugin
-    assert plugin.channels in ("RGBA", "RGB", "X", "Z", "XYZ", "UVA")
-    assert plugin.reduction in ("mean", "first", "sum")
+    assert PASSES[plugin.key] == plugin
+    assert plugin.channels in ("RGBA", "RGB", "X", "Z", "XYZ", "UVA", "rgba")
+    assert plugin.reduction in ("mean", "first", "sum", "ranks")
     assert plugin.records in ("", "first hit", "light", "first hit and light")
     assert not plugin.records or isinstance(plugin.background, float)
     assert not plugin.divided_by or plugin.divided_by in PASSES
