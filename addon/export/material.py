@@ -19,8 +19,8 @@ from .values import Reader
 BRIGHTEST = 1e30
 """Radiance [W m^-2 sr^-1] beyond which products no longer fit into single precision."""
 
-DEFAULT = Material(name="Default", lobes=Layers().lobes()[0])
-"""What faces without a material wear: Blender's default Principled BSDF."""
+DEFAULT = Material(name="default_surface", lobes=Layers().lobes()[0])
+"""What faces without a material wear: Blender's default Principled BSDF. Mattes know it by the name that Cycles gives it."""
 
 
 def export_material(material, findings, bitmaps=None):

@@ -33,7 +33,7 @@ _RAY_VISIBILITY = ("visible_camera", "visible_diffuse", "visible_glossy", "visib
 
 @dataclass(frozen=True)
 class _Placed:
-    """An instance before its matrix is checked: who it is, what it is made of, the names of the values it is asked for, whose part it is."""
+    """An instance before its matrix is checked: who it is, what it has, the names of the values it is asked for, and whose part it is."""
 
     name: str
     mesh: object
