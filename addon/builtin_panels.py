@@ -13,7 +13,6 @@ ENGINE = "GLANZ"
 _EXCLUDED_PREFIXES = (
     "DATA_PT_light",
     "DATA_PT_context_lightprobe",
-    "DATA_PT_preview",
     "DATA_PT_spot",
     "DATA_PT_distance",
     "MATERIAL_PT_freestyle",
@@ -34,6 +33,7 @@ _OF_EEVEE = (
     "EEVEE_MATERIAL_PT_surface",
     "EEVEE_MATERIAL_PT_volume",
     "EEVEE_WORLD_PT_surface",
+    "MATERIAL_PT_preview",
 )
 _joined = []
 

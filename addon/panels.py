@@ -261,6 +261,21 @@ class GLANZ_LIGHT_PT_light(GlanzPanel, bpy.types.Panel):
             column.prop(context.object, "visible_camera", text="Visible to Camera")
 
 
+class GLANZ_WORLD_PT_preview(GlanzPanel, bpy.types.Panel):
+    """Blender has one for Cycles only."""
+
+    bl_label = "Preview"
+    bl_context = "world"
+    bl_options = frozenset({"DEFAULT_CLOSED"})
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and context.world is not None
+
+    def draw(self, context):
+        self.layout.template_preview(context.world)
+
+
 class GLANZ_MATERIAL_PT_lecture(GlanzPanel, bpy.types.Panel):
     """The lecture's parameters, in place of the material's nodes."""
 
@@ -316,6 +331,7 @@ _CLASSES = (
     GLANZ_RENDER_PT_motion_blur,
     GLANZ_OBJECT_PT_motion_blur,
     GLANZ_RENDER_PT_performance,
+    GLANZ_WORLD_PT_preview,
     GLANZ_MATERIAL_PT_lecture,
     GLANZ_MATERIAL_PT_medium,
     GLANZ_VIEWLAYER_PT_passes,

@@ -8,7 +8,7 @@ from functools import partial
 import bpy
 
 from . import backend, passes
-from .reports import Warnings, errors_shown, errors_told
+from .reports import Warnings, errors_logged, errors_shown, errors_told
 from .status import Status
 
 
@@ -21,7 +21,7 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
 
     bl_idname = "GLANZ"
     bl_label = "Glanz"
-    bl_use_preview = False
+    bl_use_preview = True
     # Material Preview is drawn by EEVEE, and the shader editor offers the usual nodes.
     bl_use_eevee_viewport = True
     bl_use_shading_nodes_custom = False
@@ -41,11 +41,16 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
     def render(self, depsgraph):
         """Called by Blender for each view layer of each frame."""
         # Blender knows when it was cancelled; what is finished stays.
-        with errors_shown(self), suppress(Cancelled):
-            self._render(depsgraph)
+        with (errors_logged if self.is_preview else errors_shown)(self), suppress(Cancelled):
+            backend.load_or_raise()
+            (self._preview if self.is_preview else self._render)(depsgraph)
+
+    def _preview(self, depsgraph):
+        from .preview import render_preview
+
+        render_preview(self, depsgraph, self._check)
 
     def _render(self, depsgraph):
-        backend.load_or_raise()
         from ..engine import metadata, render
         from .export import Findings, export_views
         from .results import make_room, stamp, write_tile

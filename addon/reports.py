@@ -62,6 +62,18 @@ def errors_told(engine):
         engine.update_stats("", describe(error))
 
 
+@contextmanager
+def errors_logged(engine):
+    """Turn whatever is raised inside into a line of the log: a preview that fails must not stop the render that runs beside it."""
+    try:
+        yield
+    except Exception as error:
+        if not is_expected(error):
+            traceback.print_exception(error)
+        log.warning("preview: %s", describe(error))
+        engine.error_set(describe(error))
+
+
 class Warnings:
     """Shows each warning once: the first few as reports of Blender's render `engine`, the others in the log."""
 

@@ -55,6 +55,12 @@ def settings_of(scene, view_layer, **overrides):
     return Settings(**values)
 
 
+def doubling(settings):
+    """The ends of rounds over the whole frame, of which each has as many samples as all before it: 1, 2, 4, 8 ..."""
+    begin, end = settings.rendered_samples
+    return tuple(begin + 2**i for i in range((end - begin).bit_length()))
+
+
 def resolution(width, height, percentage):
     """(width, height) [px] of the full frame, rounded down as Blender does."""
     return width * percentage // 100, height * percentage // 100

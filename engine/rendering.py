@@ -61,8 +61,8 @@ class Image:
     warnings: tuple = ()
 
 
-def render(scene, settings):
-    """Render, yielding `Progress` at least ten times a second until everything is done.
+def render(scene, settings, ends=()):
+    """Render, yielding `Progress` at least ten times a second until everything is done; `ends` as in `render_plan`.
 
     Tiles that take long are shown unfinished now and then. To cancel is to stop iterating: closing the generator stops
     the threads within a batch's bounce. The picture depends neither on threads, tiles nor border. Raises SceneError
@@ -72,7 +72,7 @@ def render(scene, settings):
     yield Progress(0.0, warnings=warnings)
     plan = Plan.of(scene, settings, Requirements.of(scene, settings))
     yield Progress(0.0, warnings=plan.world.warnings)
-    yield from render_plan(plan)
+    yield from render_plan(plan, ends)
 
 
 def prepare(scene, settings, before=None):
