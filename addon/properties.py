@@ -187,6 +187,21 @@ class GlanzSceneSettings(bpy.types.PropertyGroup):
         max=65536,
         subtype="PIXEL",
     )
+    progress: EnumProperty(
+        name="Progress",
+        description="What is seen while a picture is rendered. Does not change the picture, unless it is cancelled",
+        items=(
+            ("TILES", "Tiles", "Tile after tile appears with all of its samples: least memory and least time"),
+            (
+                "FRAME",
+                "Whole Frame",
+                "The whole picture appears at once, and refines with 1, 2, 4, 8, ... samples; cancelled, it is noisy but whole. "
+                "Takes memory for the samples of the whole frame, and a tenth more time. "
+                "Where pixels are divided, by Adaptive Threshold, there are tiles all the same",
+            ),
+        ),
+        default="TILES",
+    )
     motion_steps: IntProperty(
         name="Deformation Steps",
         description=(

@@ -54,7 +54,7 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
         from ..engine import metadata, render
         from .export import Findings, export_views
         from .results import make_room, stamp, write_tile
-        from .settings import settings_of
+        from .settings import doubling, settings_of
 
         settings = settings_of(depsgraph.scene_eval, depsgraph.view_layer_eval, width=self.resolution_x, height=self.resolution_y)
         layer = depsgraph.view_layer.name
@@ -68,12 +68,13 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
         warnings.show(notes)
         stamp(self, metadata(scenes[0], settings, layer))
         self.update_stats("", "Preparing the scene")
+        ends = doubling(settings) if depsgraph.scene_eval.glanz.progress == "FRAME" else ()
         status = Status(self, settings.samples)
         for number, (view, scene) in enumerate(zip(views, scenes, strict=True)):
             # The eyes differ in their camera, and in their noise, or it would seem to float in depth.
             settings = replace(settings, seed=settings.seed + bool(number))
             # Closing the generator joins its threads, so none is left when Blender goes on, whatever happens here.
-            with closing(render(scene, settings)) as progress:
+            with closing(render(scene, settings, ends)) as progress:
                 for step in progress:
                     warnings.show(step.warnings)
                     for tile in step.tiles:

@@ -243,6 +243,48 @@ def test_tiles_and_threads_do_not_change_the_picture(tmp_path):
     np.testing.assert_array_equal(pictures[0], pictures[2])
 
 
+def _pictures(monkeypatch, size):
+    """A list that will have the picture as it was shown after each tile, (size, size, 4)."""
+    shown, write = [], results.write_tile
+
+    def write_tile(engine, tile, *place):
+        shown.append(shown[-1].copy() if shown else np.zeros((size, size, 4), np.float32))
+        shown[-1][tile.y : tile.y + tile.height, tile.x : tile.x + tile.width] = tile.passes["Combined"]
+        write(engine, tile, *place)
+
+    monkeypatch.setattr(results, "write_tile", write_tile)
+    return shown
+
+
+def test_the_whole_frame_refines_to_the_picture_of_the_tiles(tmp_path, monkeypatch):
+    """After rounds of 1, 2, 4 and 6 samples the frame is whole and its error falls; the last picture has the bits of the tiles."""
+    blender.add_camera()
+    blender.add_tetrahedron()
+    blender.set_world((1, 0.8, 0.6))
+    glanz = bpy.context.scene.glanz
+    glanz.samples, glanz.tile_size = 6, 32
+    tiles = blender.read_exr(blender.render(tmp_path / "tiles.exr"))["ViewLayer.Combined"]
+    shown = _pictures(monkeypatch, 64)
+    glanz.progress = "FRAME"
+    frame = blender.read_exr(blender.render(tmp_path / "frame.exr"))["ViewLayer.Combined"]
+    np.testing.assert_array_equal(frame, tiles)
+    assert len(shown) == 4 * 4
+    errors = [np.abs(picture[..., :3] - tiles[..., :3]).mean() for picture in shown[3::4]]
+    assert errors == sorted(errors, reverse=True)
+    assert errors[0] > errors[1] > errors[3] == 0
+
+
+def test_a_whole_frame_that_is_cancelled_is_whole(furnace, tmp_path, monkeypatch):
+    """Unlike tiles: after the first round no pixel is empty, and what the second round has refined stays."""
+    glanz = bpy.context.scene.glanz
+    glanz.tile_size, glanz.progress = 32, "FRAME"
+    cancelled = _CancelledAfter(monkeypatch, 6)
+    pixels = blender.read_exr(blender.render(tmp_path / "a.exr"))["ViewLayer.Combined"]
+    assert len(cancelled.written) >= 6
+    assert not cancelled.written[-1].is_final
+    np.testing.assert_allclose(pixels, np.broadcast_to((1, 0.5, 0.25, 1), pixels.shape), rtol=1e-4)
+
+
 def test_an_empty_scene_shows_the_world(tmp_path):
     blender.add_camera()
     blender.set_world((0.5, 0.25, 0), 2)
