@@ -12,12 +12,12 @@ import bpy
 from ..engine import GlanzError, SceneError
 from . import SETTINGS
 from .export import Findings, export_scene
-from .export.findings import IGNORED
+from .export.findings import IGNORED, KINDS
 from .files import open_blend, save_png
 from .reports import describe
 from .settings import settings_of
 
-__all__ = ["Findings", "capture", "open_blend", "save_png"]
+__all__ = ["KINDS", "Findings", "capture", "open_blend", "save_png"]
 
 
 class GlanzCaptureEngine(bpy.types.RenderEngine):

@@ -8,6 +8,7 @@ from functools import partial
 import bpy
 
 from . import backend, passes
+from .checks import Check, keep
 from .reports import Warnings, errors_logged, errors_shown, errors_told
 from .status import Status
 
@@ -51,7 +52,7 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
         render_preview(self, depsgraph, self._check)
 
     def _render(self, depsgraph):
-        from ..engine import metadata, render
+        from ..engine import Requirements, metadata, render
         from .export import Findings, export_views
         from .results import make_room, stamp, write_tile
         from .settings import doubling, settings_of
@@ -63,10 +64,12 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
         warnings = Warnings(self)
         findings, cameras = Findings(), [partial(self._camera, view) for view in views]
         scenes, notes = export_views(depsgraph, settings, cameras, self._check, self.frame_set, findings)
+        requirements = Requirements.of(scenes[0], settings)
+        self._keep(depsgraph, requirements, findings)
         if depsgraph.scene_eval.glanz.strict:
             findings.raise_if_lost(depsgraph.scene_eval.name)
         warnings.show(notes)
-        stamp(self, metadata(scenes[0], settings, layer))
+        stamp(self, metadata(scenes[0], settings, layer, requirements))
         self.update_stats("", "Preparing the scene")
         ends = doubling(settings) if depsgraph.scene_eval.glanz.progress == "FRAME" else ()
         status = Status(self, settings.samples)
@@ -77,14 +80,23 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
             with closing(render(scene, settings, ends)) as progress:
                 for step in progress:
                     warnings.show(step.warnings)
+                    for line in step.warnings:
+                        findings.note(line, "")
                     for tile in step.tiles:
                         write_tile(self, tile, settings.region, layer, view)
-                    status.show((number + step.done) / len(views))
+                    status.show((number + step.done) / len(views), len(warnings))
                     if self.is_cancelled():
                         break
             if self.is_cancelled():
                 break
+        self._keep(depsgraph, requirements, findings)
         warnings.close()
+
+    @staticmethod
+    def _keep(depsgraph, requirements, findings):
+        """Let panels know what was found out."""
+        origin = f"Rendered at frame {depsgraph.scene_eval.frame_current}"
+        keep(depsgraph.scene, depsgraph.view_layer.name, Check(requirements.in_words(), findings.notes, origin))
 
     def _camera(self, view):
         """(camera object, matrix, horizontal shift) of `view`, a name of Blender's; "" where there is but one."""

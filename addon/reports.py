@@ -91,8 +91,13 @@ class Warnings:
             else:
                 log.warning(line)
 
+    def __len__(self):
+        return len(self._seen)
+
     def close(self):
-        """Say how many were not shown."""
-        hidden = len(self._seen) - MOST_WARNINGS
+        """Say how many there were, and how many were not shown."""
+        hidden = len(self) - MOST_WARNINGS
         if hidden > 0:
-            self._engine.report({"WARNING"}, f"and {hidden} more warnings, see the console")
+            self._engine.report({"WARNING"}, f"and {hidden} more warnings, see Scene Requirements in the Render properties")
+        if len(self):
+            log.warning("rendered with %d warning%s", len(self), "" if len(self) == 1 else "s")

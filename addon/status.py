@@ -14,19 +14,20 @@ class Status:
         self._clock = clock
         self._start = clock()
 
-    def show(self, done):
-        """`done` in [0, 1]."""
+    def show(self, done, warnings=0):
+        """`done` in [0, 1]; how many warnings there were."""
         self._engine.update_progress(done)
-        self._engine.update_stats("", text(done, self._samples, self._clock() - self._start))
+        self._engine.update_stats("", text(done, self._samples, self._clock() - self._start, warnings))
         memory = peak_megabytes()
         if memory is not None:
             self._engine.update_memory_stats(memory_used=memory, memory_peak=memory)
 
 
-def text(done, samples, elapsed):
-    """Such as "45% of 64 samples, 1:05 left"; the rest of the time is taken to pass as `elapsed` [s] did."""
-    line = f"{100 * done:.0f}% of {samples} samples"
-    return f"{line}, {minutes(elapsed * (1 - done) / done)} left" if done > 0 else line
+def text(done, samples, elapsed, warnings=0):
+    """Such as "45% of 64 samples, 1:05 left, 3 warnings"; the rest of the time is taken to pass as `elapsed` [s] did."""
+    left = (f"{minutes(elapsed * (1 - done) / done)} left",) if done > 0 else ()
+    told = (f"{warnings} warning{'' if warnings == 1 else 's'}",) if warnings else ()
+    return ", ".join((f"{100 * done:.0f}% of {samples} samples", *left, *told))
 
 
 def minutes(seconds):

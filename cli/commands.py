@@ -58,24 +58,29 @@ def info(arguments, terminal):
     scene, warnings = validate(shot.scene, shot.settings)
     settings = dataclasses.asdict(shot.settings)
     requirements = Requirements.of(scene, shot.settings)
+    by_kind = shot.by_kind | {"approximated": (*shot.by_kind.get("approximated", ()), *warnings)}
+    notes = [*shot.notes, *({"what": line, "kind": "approximated", "datablock": "", "name": "", "node": []} for line in warnings)]
     warnings = [*shot.warnings, *warnings]
     counts = {
         "objects": len(scene.objects),
         "triangles": sum(o.mesh.triangles.shape[1] for o in scene.objects),
         "lights": len(scene.lights),
+        "warnings": len(warnings),
     }
     if arguments.json:
         content = {"file": arguments.file, "scene": scene.name, "frame": shot.frame, "counts": counts, "settings": settings}
-        terminal.say(json.dumps(content | {"requirements": requirements.as_dict(), "warnings": warnings}, indent=2))
+        terminal.say(json.dumps(content | {"requirements": requirements.as_dict(), "warnings": warnings, "notes": notes}, indent=2))
         return
     frame = "" if shot.frame is None else f", frame {shot.frame}"
     terminal.say(f"scene '{scene.name}'{frame}: " + ", ".join(f"{name} {count}" for name, count in counts.items()))
     terminal.say("settings: " + ", ".join(f"{name} {value}" for name, value in settings.items()))
     terminal.say("requires:")
     terminal.say("\n".join(f"  {line}" for line in str(requirements).splitlines()))
-    terminal.say("approximated or ignored:" if warnings else "nothing is approximated or ignored")
-    for warning in warnings:
-        terminal.say(f"  {warning}")
+    if not warnings:
+        terminal.say("nothing is approximated or ignored")
+    for kind, lines in by_kind.items():
+        if lines:
+            terminal.say("\n".join((f"{kind}:", *(f"  {line}" for line in lines))))
 
 
 def export(arguments, terminal):

@@ -3,7 +3,7 @@
 import dataclasses
 import os
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from ..engine import FileError, SceneError, read_scene
@@ -19,7 +19,8 @@ LIBRARIES = "libgl1 libice6 libsm6 libx11-6 libxfixes3 libxi6 libxkbcommon0 libx
 class Shot:
     """One picture to make: the engine's values, the frame's number (None: a file without frames), what was approximated.
 
-    `notes` are the warnings of a .blend file, each with what it is about.
+    notes    {field: value} for each thing that a .blend file's warnings are about
+    by_kind  {"missing", "ignored" or "approximated": the warnings that are so}
     """
 
     scene: object
@@ -27,6 +28,7 @@ class Shot:
     frame: int | None
     warnings: tuple = ()
     notes: tuple = ()
+    by_kind: dict = field(default_factory=dict)
 
 
 def open_source(path, scene_name, before_blender):
@@ -72,7 +74,9 @@ class _Blend:
         overrides = {"width": size[0], "height": size[1]} if size else {}
         findings = self._capture.Findings()
         scene, settings, warnings = self._capture.capture(frame, self._scene_name, overrides=overrides, strict=strict, findings=findings)
-        return Shot(scene, settings, self._current_frame() if frame is None else frame, warnings, findings.notes)
+        notes = tuple(note.as_dict() for note in findings.notes)
+        by_kind = {kind: findings.lines((kind,)) for kind in self._capture.KINDS}
+        return Shot(scene, settings, self._current_frame() if frame is None else frame, warnings, notes, by_kind)
 
     def save_png(self, image, path):
         """Write `image` through the scene's own view transform."""

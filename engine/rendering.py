@@ -131,8 +131,12 @@ def render_image(scene, settings, on_progress=None):
     return Image(x1 - x0, y1 - y0, passes, metadata(scene, settings), tuple(warnings))
 
 
-def metadata(scene, settings, layer=""):
-    """What a file should say about how its picture was made, {str: str}; `layer` stands in front of the names of its channels."""
+def metadata(scene, settings, layer="", requirements=None):
+    """What a file should say about how its picture was made, {str: str}.
+
+    layer         stands in front of the names of its channels
+    requirements  those of the scene, if they are known
+    """
     facts = {}
     for p in (PASSES[key] for key in settings.passes):
         facts |= p.facts(scene, layer) if hasattr(p, "facts") else {}
@@ -149,7 +153,7 @@ def metadata(scene, settings, layer=""):
         "glanz.adaptive_threshold": f"{settings.adaptive_threshold:g}",
         "glanz.adaptive_levels": str(settings.adaptive_levels),
         "glanz.pixel_filter": settings.pixel_filter,
-        "glanz.requirements": ", ".join(Requirements.of(scene, settings).needs),
+        "glanz.requirements": ", ".join((requirements or Requirements.of(scene, settings)).needs),
         **facts,
     }
 

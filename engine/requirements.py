@@ -131,6 +131,10 @@ class Requirements:
         """{need: [names]}, ready for JSON."""
         return {need: list(names) for need, names in self.needs.items()}
 
+    def in_words(self):
+        """{feature, a text for people: [names]} of all but what settings ask for, which can be seen there."""
+        return {_described(need): list(names) for need, names in self.needs.items() if set(names) != {"settings"}}
+
     def __str__(self):
         width = max(map(len, self.needs), default=0)
         return "\n".join(f"{need:<{width}}  {_shortened(names)}" for need, names in self.needs.items())
@@ -144,6 +148,15 @@ def _needs_of(camera):
         *((needs.CLIP_RANGE,) if camera.clip_start != 0 or camera.clip_end < math.inf else ()),
         *((needs.CAMERA_MOTION,) if len(camera.motion) else ()),
     )
+
+
+def _described(need):
+    """Such as "Textures: parameters of materials that vary over a surface", or "Light: Point"."""
+    if need in needs.MEANING:
+        return f"{need.capitalize()}: {needs.MEANING[need]}"
+    kind, _, key = need.partition(" ")
+    registry = {"bsdf": BSDFS, "light": LIGHTS, "pass": PASSES, "camera": CAMERAS}[kind]
+    return f"{'Reflection' if kind == 'bsdf' else kind.capitalize()}: {registry[key].label}"
 
 
 def _shortened(names, most=4):

@@ -1,6 +1,7 @@
 """The whole scene of a render depsgraph as the engine's value."""
 
 from contextlib import nullcontext
+from dataclasses import replace
 
 from ...engine import Scene
 from ..passes import attributes
@@ -10,6 +11,8 @@ from .kept import Kept
 from .motion import STILL, CameraTrack, Shutter, Tracks
 from .objects import export_objects
 from .world import export_world
+
+_RENDERED = ("MESH", "CURVE", "SURFACE", "FONT", "META", "CURVES", "POINTCLOUD", "VOLUME", "LIGHT", "GPENCIL", "GREASEPENCIL")
 
 
 def export_scene(depsgraph, settings, view=None, check=lambda: None, frame_set=None, findings=None):
@@ -42,16 +45,33 @@ def export_views(depsgraph, settings, views, check=lambda: None, frame_set=None,
     return scenes, findings.lines()
 
 
-def export_contents(depsgraph, kept, is_shown=lambda ob: True):
+def export_contents(depsgraph, kept, is_shown=lambda ob: True, findings=None):
     """(scene, warnings) as of a 3D view: the engine's `Scene` without a camera, at one time.
 
     kept      what was exported before, a `Kept`
     is_shown  whether an object (evaluated) is to be seen
+    findings  `Findings` that keep the warnings as notes, too
     """
-    findings = Findings()
+    findings = findings or Findings()
     _note_ignored(depsgraph.scene_eval, findings)
     contents = _contents(depsgraph, findings, kept, is_shown=is_shown)
     return Scene(name=depsgraph.scene_eval.name, camera=None, **contents), findings.lines()
+
+
+def export_still(depsgraph, settings, findings):
+    """The engine's `Scene` as far as the depsgraph of a 3D view tells: what will be rendered, at one time.
+
+    settings  the engine's `Settings`, for the size of the frame
+    findings  `Findings` that are told, also which objects 3D views do not show, so that nothing is known of them
+    Raises SceneError naming the object for which no picture is possible.
+    """
+    scene, layer = depsgraph.scene_eval, depsgraph.view_layer
+    camera = export_camera(scene.camera, scene.render, settings.width, settings.height)
+    for ob in layer.objects:
+        if ob.type in _RENDERED and not ob.hide_render and not ob.visible_get(view_layer=layer):
+            findings.note("it is hidden in 3D views, so it was not checked", f"object '{ob.name}'")
+    contents, _ = export_contents(depsgraph, Kept(), lambda ob: not ob.hide_render, findings)
+    return replace(contents, camera=camera)
 
 
 def _contents(depsgraph, findings, kept, check=lambda: None, tracks=STILL, is_shown=lambda ob: True, asked=()):

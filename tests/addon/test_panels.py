@@ -27,6 +27,9 @@ class Layout:
     def separator(self):
         pass
 
+    def operator(self, idname, **options):
+        self.drawn.append(idname)
+
     def column(self, **options):
         return self
 

@@ -16,6 +16,11 @@ def test_remaining_time_is_in_proportion():
     assert text(1, 64, 30) == "100% of 64 samples, 0:00 left"
 
 
+def test_warnings_are_counted():
+    assert text(0.25, 64, 30, 1) == "25% of 64 samples, 1:30 left, 1 warning"
+    assert text(0, 64, 0, 3) == "0% of 64 samples, 3 warnings"
+
+
 def test_there_is_no_guess_before_anything_is_done():
     assert text(0, 64, 0) == "0% of 64 samples"
 

@@ -104,6 +104,14 @@ def test_info_prints_json_and_nothing_else(glanz):
     assert (content["settings"]["width"], content["settings"]["height"]) == (24, 16)
 
 
+def test_info_tells_by_kind_what_is_not_as_in_blender(glanz):
+    content = json.loads(glanz("info scene.blend --scene Smoky --json").stdout)
+    (note,) = content["notes"]
+    assert note == {"what": "volumes are not rendered", "kind": "ignored", "datablock": "object", "name": "Smoke", "node": []}
+    assert content["counts"]["warnings"] == len(content["warnings"]) == 1
+    assert "ignored:\n  volumes are not rendered: object 'Smoke'\n" in glanz("info scene.blend --scene Smoky").stdout
+
+
 @pytest.mark.parametrize(
     ("words", "cause"),
     [

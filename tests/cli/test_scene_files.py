@@ -148,8 +148,8 @@ def test_info_says_who_asked_for_what(scene_file, capsys):
     content = json.loads(capsys.readouterr().out)
     assert content["requirements"]["geometry"] == ["box", "floor"]
     assert content["settings"]["width"] == 12
-    assert content["counts"] == {"objects": 2, "triangles": 14, "lights": 0}
-    assert content["warnings"] == []
+    assert content["counts"] == {"objects": 2, "triangles": 14, "lights": 0, "warnings": 0}
+    assert content["warnings"] == content["notes"] == []
 
 
 def without_bpy(*words):

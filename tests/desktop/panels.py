@@ -20,6 +20,8 @@ drawn = set()
 def main():
     bpy.ops.wm.read_homefile(use_factory_startup=True, load_ui=True)
     bpy.context.scene.render.engine = "GLANZ"
+    # Some panels show what it has found.
+    bpy.ops.glanz.check_scene()
     open_all(properties_panels())
     yield 0.2
     editor = ui.area()

@@ -331,3 +331,11 @@ def test_a_scene_that_reflects_nothing_is_traced_once(monkeypatch):
     image = h.pixels(h.scene([seen, h.thing(h.box(), Material(name="black"))], [BULB]), SETTINGS)
     assert len([c for c in closest if c.args[1].shape[1] > 1]) == 1
     assert image.max() > 0
+
+
+def test_all_that_can_be_asked_for_has_words_of_its_own():
+    required = Requirements.everything(h.scene(), h.replaced(SETTINGS, passes=("Depth",)))
+    words = required.in_words()
+    of_settings = [need for need, names in required.needs.items() if names == ("settings",)]
+    assert len(words) == len(required.needs) - len(of_settings)
+    assert all(text[0].isupper() and text.partition(": ")[2] for text in words)
