@@ -197,19 +197,6 @@ class GLANZ_VIEWLAYER_PT_passes(GlanzPanel, bpy.types.Panel):
             column.prop(owner, name)
 
 
-class GLANZ_VIEWLAYER_PT_cryptomatte(GlanzPanel, bpy.types.Panel):
-    bl_label = "Cryptomatte"
-    bl_context = "view_layer"
-    bl_parent_id = "GLANZ_VIEWLAYER_PT_passes"
-    bl_options = frozenset({"DEFAULT_CLOSED"})
-
-    def draw(self, context):
-        column = self.column()
-        for name in ("object", "material", "asset"):
-            column.prop(context.view_layer, f"use_pass_cryptomatte_{name}")
-        column.prop(context.view_layer, "pass_cryptomatte_depth", text="Levels")
-
-
 class GLANZ_VIEWLAYER_PT_override(GlanzPanel, bpy.types.Panel):
     bl_label = "Override"
     bl_context = "view_layer"
@@ -336,7 +323,6 @@ _CLASSES = (
     GLANZ_MATERIAL_PT_lecture,
     GLANZ_MATERIAL_PT_medium,
     GLANZ_VIEWLAYER_PT_passes,
-    GLANZ_VIEWLAYER_PT_cryptomatte,
     GLANZ_VIEWLAYER_PT_override,
     GLANZ_LIGHT_PT_light,
 )

@@ -71,7 +71,15 @@ def _cryptomattes(view_layer):
     return [f"Crypto{kind}{level:02}" for kind in kinds for level in levels]
 
 
-FAMILIES = (_cryptomattes,)
+def _light_groups(view_layer):
+    return [f"Combined_{group.name}" for group in view_layer.lightgroups]
+
+
+def _aovs(view_layer):
+    return [f"AOV {aov.type.title()} {aov.name}" for aov in view_layer.aovs if aov.is_valid]
+
+
+FAMILIES = (_cryptomattes, _aovs, _light_groups)
 """Functions that say which passes of the engine's families are switched on in a view layer."""
 
 
@@ -80,6 +88,8 @@ def name_of(key):
     # Not above: the command line knows this module where there is no Blender.
     import bpy
 
+    if key.startswith("AOV "):
+        return key.split(" ", 2)[2]
     row = TABLE.get(key, BlenderPass("COLOR"))
     return row.before_5 if row.before_5 and bpy.app.version < (5, 0) else key
 
@@ -100,6 +110,11 @@ def attributes(keys):
     """What the passes `keys` of the engine ask of meshes and objects, keys as materials have them."""
     registry = backend.engine().PASSES
     return frozenset(asked for key in keys for asked in getattr(registry[key], "attributes", ()))
+
+
+def aovs(keys):
+    """(kind, name) of each AOV among the passes `keys` of the engine."""
+    return frozenset(tuple(key.split(" ", 2)[1:]) for key in keys if key.startswith("AOV "))
 
 
 def register_passes(engine, scene, view_layer):

@@ -43,6 +43,7 @@ def export_light(light_object, matrix, findings, emissions, values_of=lambda nam
     else:
         S = S * emission
     common = {"name": light_object.name, "is_visible": bool(light_object.visible_camera), "shade": shade}
+    common["group"] = light_object.lightgroup
     return _KINDS[light.type](light, matrix, S, common, name, findings)
 
 

@@ -10,7 +10,7 @@ from .colours import varies
 from .findings import IGNORED, Findings
 from .inside import absorbs, medium_of, with_dispersion, with_one_index
 from .lecture import is_lecture, lecture_medium, lecture_surface
-from .nodes import has_nodes, output_node
+from .nodes import aov_nodes, has_nodes, output_node
 from .principled import Layers
 from .relief import displacement_of
 from .shaders import surface_of
@@ -23,11 +23,27 @@ DEFAULT = Material(name="default_surface", lobes=Layers().lobes()[0])
 """What faces without a material wear: Blender's default Principled BSDF. Mattes know it by the name that Cycles gives it."""
 
 
-def export_material(material, findings, bitmaps=None):
-    """The engine's `Material` for a material (evaluated); None is `DEFAULT`. Without `bitmaps` textures are not read."""
+def export_material(material, findings, bitmaps=None, aovs=()):
+    """The engine's `Material` for a material (evaluated); None is `DEFAULT`. Without `bitmaps` textures are not read.
+
+    aovs  the names of those that passes show
+    """
     if material is None:
         return DEFAULT
-    return replace(_surface(material, findings, bitmaps), index=float(getattr(material, "pass_index", 0)))
+    index = float(getattr(material, "pass_index", 0))
+    return replace(_surface(material, findings, bitmaps), index=index, aovs=_aovs(material, findings, bitmaps, aovs))
+
+
+def _aovs(material, findings, bitmaps, names):
+    """{name: value} of the AOV Output nodes of `names`, as pairs; those inside of groups count, too."""
+    if not names or is_lecture(material) or not has_nodes(material):
+        return ()
+    found = {}
+    for reader, node in aov_nodes(Reader(f"material '{material.name}'", findings, bitmaps), material.node_tree):
+        name, is_value = node.aov_name, ("Value", node.aov_name) in names
+        if is_value or ("Color", name) in names:
+            found[name] = reader.value(node, "Value" if is_value else "Color")
+    return tuple(found.items())
 
 
 def _surface(material, findings, bitmaps):

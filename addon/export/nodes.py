@@ -24,6 +24,17 @@ def input_by_identifier(node, identifier):
     return next((socket for socket in node.inputs if socket.identifier == identifier), None)
 
 
+def aov_nodes(links, tree):
+    """(links, node) for each AOV Output node of a tree and of the groups in it; `links` follow those of that tree."""
+    for node in tree.nodes:
+        if node.mute:
+            continue
+        if node.type == "OUTPUT_AOV":
+            yield links, node
+        elif node.type == "GROUP" and node.node_tree:
+            yield from aov_nodes(links.inside(node), node.node_tree)
+
+
 def words(mode):
     """Blender's identifier of a mode as the engine's name: in lower case, with blanks."""
     return mode.lower().replace("_", " ")
@@ -73,6 +84,10 @@ class Links:
             self.note(f"its nodes feed each other more than {DEEPEST} deep, what is beyond '{node.name}' is cut off", IGNORED)
             return None
         return self._elsewhere(self.groups, (*self.trail, (node, self.groups)))
+
+    def inside(self, group):
+        """A reader for the tree of the node `group`."""
+        return self._elsewhere((*self.groups, group), self.trail)
 
     def note(self, what, kind=APPROXIMATED):
         """Record what happened to the node that is being read."""

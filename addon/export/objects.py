@@ -33,26 +33,35 @@ _RAY_VISIBILITY = ("visible_camera", "visible_diffuse", "visible_glossy", "visib
 
 @dataclass(frozen=True)
 class _Placed:
-    """An instance before its matrix is checked: who it is, what it has, the names of the values it is asked for, and whose part it is."""
+    """An instance before its matrix is checked: who it is, what it has, the names of the values it is asked for, and more of `Object`."""
 
     name: str
     mesh: object
     materials: tuple
     asked: tuple
-    asset: str
+    more: dict
 
 
 def export_objects(
-    depsgraph, findings, bitmaps, material_override=None, check=lambda: None, tracks=STILL, kept=None, is_shown=lambda ob: True, asked=()
+    depsgraph,
+    findings,
+    bitmaps,
+    material_override=None,
+    check=lambda: None,
+    tracks=STILL,
+    kept=None,
+    is_shown=lambda ob: True,
+    asked=(),
+    aovs=(),
 ):
     """(objects, lights): engine values for every instance of `depsgraph`, tuples.
 
     Meshes are shared by data-block, so ten thousand instances cost one mesh; images are by `bitmaps`. `material_override`, if any,
     replaces all materials. `check` is called now and then and may raise to stop. `tracks` is told who is there, and moves them, see
     `motion`. `kept` is what was exported before, `is_shown` says whether an object (evaluated) is to be seen, `asked` is what passes
-    look up, whatever the materials. Raises SceneError naming the object that failed.
+    look up, whatever the materials, `aovs` the names of what they show of them. Raises SceneError naming the object that failed.
     """
-    parts, emissions = _Parts(findings, bitmaps, material_override, kept or Kept(), asked), Emissions(findings, bitmaps)
+    parts, emissions = _Parts(findings, bitmaps, material_override, kept or Kept(), asked, aovs), Emissions(findings, bitmaps)
     placed, matrices, values, identities, lights = [], [], [], [], []
     for i, instance in enumerate(depsgraph.object_instances):
         if i % POLL_EVERY == 0:
@@ -100,7 +109,7 @@ def _placed_objects(parts, matrices, values, findings):
             cause, kind = ("the scale leaves no surface", APPROXIMATED) if is_finite else ("the transform is not finite", IGNORED)
             findings.note(f"{cause}, so it is left out", f"object '{part.name}'", kind)
     return [
-        Object(name=part.name, mesh=part.mesh, world_from_object=matrix, materials=part.materials, values=own, asset=part.asset)
+        Object(name=part.name, mesh=part.mesh, world_from_object=matrix, materials=part.materials, values=own, **part.more)
         if is_visible
         else None
         for part, matrix, own, is_visible in zip(parts, matrices, values, visible, strict=True)
@@ -140,12 +149,12 @@ def _top(ob):
 class _Parts:
     """Meshes and materials, exported when first met."""
 
-    def __init__(self, findings, bitmaps, material_override, kept, asked):
+    def __init__(self, findings, bitmaps, material_override, kept, asked, aovs):
         self._findings = findings
         self._override = material_override
         self._kept = kept
         self._bitmaps = bitmaps
-        self._asked = asked
+        self._asked, self._aovs = asked, aovs
         self._parts, self._materials = {}, {}
 
     def of(self, ob):
@@ -173,7 +182,8 @@ class _Parts:
         values = tuple(self._material(material) for material in materials)
         attributes = frozenset(self._asked).union(*(value.attributes for value in values))
         asked = tuple(sorted(name for source, name in attributes if source == "value"))
-        return _Placed(ob.name, self._mesh(ob, frozenset(a for a in attributes if a[0] not in _OF_OBJECTS)), values, asked, _top(ob).name)
+        more = {"asset": _top(ob).name, "group": ob.lightgroup}
+        return _Placed(ob.name, self._mesh(ob, frozenset(a for a in attributes if a[0] not in _OF_OBJECTS)), values, asked, more)
 
     def _mesh(self, ob, attributes):
         self._note_missing(ob.data, attributes)
@@ -188,7 +198,7 @@ class _Parts:
     def _material(self, material):
         key = material.as_pointer() if material else None
         if key not in self._materials:
-            self._materials[key] = export_material(material, self._findings, self._bitmaps)
+            self._materials[key] = export_material(material, self._findings, self._bitmaps, self._aovs)
         return self._materials[key]
 
     def _note_ignored(self, ob):

@@ -4,7 +4,7 @@ from contextlib import nullcontext
 from dataclasses import replace
 
 from ...engine import Scene
-from ..passes import attributes
+from ..passes import aovs, attributes
 from .camera import export_camera
 from .findings import IGNORED, Findings
 from .kept import Kept
@@ -40,7 +40,7 @@ def export_views(depsgraph, settings, views, check=lambda: None, frame_set=None,
         cameras = [_camera_track(depsgraph, settings, view) for view in views]
         _note_ignored(scene, findings)
         tracks = Tracks(shutter, depsgraph, cameras, findings, check) if shutter else STILL
-        contents = _contents(depsgraph, findings, Kept(), check, tracks, asked=attributes(settings.passes))
+        contents = _contents(depsgraph, findings, Kept(), check, tracks, asked=attributes(settings.passes), aovs=aovs(settings.passes))
     scenes = tuple(Scene(name=scene.name, camera=camera.moved(shutter, findings), **contents) for camera in cameras)
     return scenes, findings.lines()
 
@@ -74,14 +74,14 @@ def export_still(depsgraph, settings, findings):
     return replace(contents, camera=camera)
 
 
-def _contents(depsgraph, findings, kept, check=lambda: None, tracks=STILL, is_shown=lambda ob: True, asked=()):
+def _contents(depsgraph, findings, kept, check=lambda: None, tracks=STILL, is_shown=lambda ob: True, **asked):
     """What `Scene`s have but for their cameras, {name: value}."""
     layer, bitmaps = depsgraph.view_layer_eval, kept.bitmaps(depsgraph.scene_eval.frame_current)
     override = _evaluated(layer.material_override, depsgraph)
     world = _evaluated(getattr(layer, "world_override", None) or depsgraph.scene_eval.world, depsgraph)
     world = export_world(world, findings, bitmaps)
     # Last, for to see what moves Blender has to leave the frame.
-    objects, lights = export_objects(depsgraph, findings, bitmaps, override, check, tracks, kept, is_shown, asked)
+    objects, lights = export_objects(depsgraph, findings, bitmaps, override, check, tracks, kept, is_shown, **asked)
     return {"objects": objects, "lights": lights, "world": world}
 
 

@@ -16,7 +16,8 @@ def export_world(world, findings, bitmaps):
     if world is None:
         return World()
     mist = world.mist_settings
-    return replace(_surroundings(world, findings, bitmaps), mist=Mist(start=mist.start, depth=mist.depth, falloff=mist.falloff.lower()))
+    mist = Mist(start=mist.start, depth=mist.depth, falloff=mist.falloff.lower())
+    return replace(_surroundings(world, findings, bitmaps), mist=mist, group=world.lightgroup)
 
 
 def _surroundings(world, findings, bitmaps):

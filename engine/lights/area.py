@@ -26,6 +26,7 @@ class AreaLight:
                       behind a grid: max(tan a - tan theta, 0) / (tan a - a), a = spread / 2, so the flux stays
     is_visible        camera rays see the shape
     shade             the `Shade` that its light passes; None: it shines as above
+    group             the light group that it belongs to; empty: none
     """
 
     key = "area"
@@ -40,6 +41,7 @@ class AreaLight:
     spread: float = math.pi
     is_visible: bool = False
     shade: Shade | None = None
+    group: str = ""
 
     def _axes(self):
         matrix = np.asarray(self.world_from_light, np.float64)

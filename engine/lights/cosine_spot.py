@@ -24,6 +24,7 @@ class CosineSpotLight:
     soft_falloff      the bulb is a disk facing whatever it lights (Blender's default); else a sphere
     is_visible        camera rays see the bulb
     shade             the `Shade` that its light passes; None: it shines as above
+    group             the light group that it belongs to; empty: none
     """
 
     key = "cosine_spot"
@@ -37,6 +38,7 @@ class CosineSpotLight:
     soft_falloff: bool = True
     is_visible: bool = False
     shade: Shade | None = None
+    group: str = ""
 
     @property
     def position(self):

@@ -18,6 +18,7 @@ class PointLight:
     soft_falloff  the bulb is a disk that turns to face whatever it lights (Blender's default); else a sphere
     is_visible    camera rays see the bulb (Blender's lights are invisible to the camera by default)
     shade         the `Shade` that its light passes; None: it shines as above
+    group         the light group that it belongs to; empty: none
     """
 
     key = "point"
@@ -30,6 +31,7 @@ class PointLight:
     soft_falloff: bool = True
     is_visible: bool = False
     shade: Shade | None = None
+    group: str = ""
 
     def row(self, frame):
         return bulbs.row(frame, self)

@@ -25,6 +25,7 @@ class SpotLight:
     soft_falloff      the bulb is a disk facing whatever it lights (Blender's default); else a sphere
     is_visible        camera rays see the bulb
     shade             the `Shade` that its light passes; None: it shines as above
+    group             the light group that it belongs to; empty: none
 
     The edge is Blender's: smoothstep((cos theta - cos(angle / 2)) / ((1 - cos(angle / 2)) blend)).
     """
@@ -41,6 +42,7 @@ class SpotLight:
     soft_falloff: bool = True
     is_visible: bool = False
     shade: Shade | None = None
+    group: str = ""
 
     @property
     def position(self):

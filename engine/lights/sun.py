@@ -25,6 +25,7 @@ class SunLight:
     angle       angular diameter [rad], in [0, pi]; 0: a direction
     is_visible  camera rays see the disk
     shade       the `Shade` that its light passes; None: it shines as above
+    group       the light group that it belongs to; empty: none
 
     The disk has the radiance E / (pi sin^2(angle / 2)).
     """
@@ -39,6 +40,7 @@ class SunLight:
     angle: float = 0.0
     is_visible: bool = False
     shade: Shade | None = None
+    group: str = ""
 
     def row(self, frame):
         half = 0.5 * self.angle

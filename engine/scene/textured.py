@@ -76,8 +76,9 @@ def coordinates_of(texture):
 
 
 def material_textures(material):
-    """All textures of a material's lobes, emission, alpha and relief, without inner ones."""
-    return [*(t for value in (*material.lobes, material) for t in textures_of(value).values()), *material.relief]
+    """All textures of a material's lobes, emission, alpha, relief and passes of its own, without inner ones."""
+    own = [value for _, value in material.aovs if is_texture(value)]
+    return [*(t for value in (*material.lobes, material) for t in textures_of(value).values()), *material.relief, *own]
 
 
 def attributes_of(material):

@@ -83,6 +83,9 @@ def _check_material(material):
         raise SceneError(f"material '{material.name}': alpha is {material.alpha}, allowed: 0 to 1")
     if not math.isfinite(material.index):
         raise SceneError(f"material '{material.name}': index is {material.index}, allowed: finite numbers")
+    for aov in material.aovs:
+        if len(aov) != 2 or not isinstance(aov[0], str) or not (is_texture(aov[1]) or np.shape(aov[1]) in ((), (3,))):
+            raise SceneError(f"material '{material.name}': its AOV {aov!r} is not a name, and one or three numbers or a texture")
     for relief in material.relief:
         if not is_texture(relief):
             raise SceneError(f"material '{material.name}': its relief {relief!r} is not a texture")
@@ -125,7 +128,7 @@ def _check_texture(texture, owner):
 def _check_light(light, warnings):
     if type(light) not in LIGHTS.values():
         raise SceneError(f"{type(light).__name__} is not a light")
-    numbers = [getattr(light, f.name) for f in dataclasses.fields(light) if f.name not in ("name", "shade")]
+    numbers = [getattr(light, f.name) for f in dataclasses.fields(light) if f.name not in ("name", "shade", "group")]
     if not all(np.isfinite(np.asarray(value, np.float64)).all() for value in numbers):
         warnings.append(f"light '{light.name}' is left out: one of its values is not finite")
         return False

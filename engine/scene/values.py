@@ -188,6 +188,7 @@ class Material:
     Emission, alpha and any parameter of a lobe may be a texture.
     ambient   k_a of the lecture's illumination model, the share of each light that arrives everywhere; no other model knows it
     relief    textures that give normals in world space, such as `NormalMap` and `BumpMap`; each bends what the one before has left
+    aovs      pairs (name, value) of what passes are to show of the surface: numbers, colours, textures
     index     a number of one's own, for the pass that tells materials apart
     medium    the `Medium` behind surfaces that let light pass; None: nothing is known of it, and nothing is absorbed
     """
@@ -200,10 +201,12 @@ class Material:
     medium: Medium | None = None
     relief: tuple = ()
     index: float = 0.0
+    aovs: tuple = ()
 
     def __post_init__(self):
         object.__setattr__(self, "lobes", tuple(self.lobes))
         object.__setattr__(self, "relief", tuple(self.relief))
+        object.__setattr__(self, "aovs", tuple(map(tuple, self.aovs)))
         for name in ("emission", "ambient"):
             if not is_texture(getattr(self, name)):
                 object.__setattr__(self, name, tuple(float(c) for c in getattr(self, name)))
@@ -225,6 +228,7 @@ class Object:
     values             what textures can ask about it: pairs (name, four numbers), such as ("colour", (r, g, b, alpha)) and
                        ("random", (x, x, x, 1)); what is not among them is 0
     asset              the name of what it is a part of; empty: its own
+    group              the light group that what it emits belongs to; empty: none
     Raises SceneError for values of another form.
     """
 
@@ -235,6 +239,7 @@ class Object:
     motion: np.ndarray = field(default_factory=no_motion)
     values: tuple = ()
     asset: str = ""
+    group: str = ""
 
     def __post_init__(self):
         settle(self, "object", "world_from_object")
@@ -266,12 +271,14 @@ class World:
     radiance     from every direction [W m^-2 sr^-1], linear Rec. 709; or a texture, all of whose coordinates are the direction, unit
     environment  an `EnvironmentMap` that adds to a constant radiance, or None
     mist         a `Mist`, for the pass of that name
+    group        the light group that it belongs to; empty: none
     """
 
     name: str = "World"
     radiance: tuple = (0.0, 0.0, 0.0)
     environment: object = None
     mist: Mist = field(default_factory=Mist)
+    group: str = ""
 
     def __post_init__(self):
         if not is_texture(self.radiance):

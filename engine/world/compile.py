@@ -66,6 +66,7 @@ class CompiledWorld:
     by_cosine   what materials are by the cosine from which they are seen; None where none depends on that alone
     emitters    the patches that emit: the last ones of `lights`, made of the last ones of the triangles that stand still
     attributes  {key: `Attribute`}: what textures are looked up at
+    light_groups  {name: (lights + 1,) bool}: which lights belong to each group; the last stands for `film.BACKGROUND`
     glow        what textured emitters shine with, see `texturing`
     camera      the `CameraSpace`
     background  (3, 1) float32 [W m^-2 sr^-1]
@@ -85,6 +86,7 @@ class CompiledWorld:
     media: Media | None
     passing: Passing | None
     attributes: dict
+    light_groups: dict
     glow: object
     camera: CameraSpace
     warnings: tuple
@@ -203,10 +205,21 @@ def compile_world(
         media=Media.of(bodies, row, material, owner[keep], frame.scale) if has_media else None,
         passing=passing,
         attributes=attributes,
+        light_groups=_light_groups(scene, lights, emitters),
         glow=glow,
         camera=camera,
         warnings=(*warnings, *lost, *dark),
     )
+
+
+def _light_groups(scene, lights, emitters):
+    """{name: (lights + 1,) bool}, see `CompiledWorld`."""
+    around = [scene.world.group]
+    names = np.array([*lights.lamp_groups, *(around if lights.environment else ()), *(o.group for o in scene.objects), *around])
+    # As the film is told of lights: lamps and environment, patches by whose they are, what is the same everywhere.
+    first = lights.first_patch
+    place = np.concatenate((np.arange(first), first + emitters.objects, [names.size - 1])).astype(np.intp)
+    return {name: (names == name).take(place) for name in {*names.tolist()} - {""}}
 
 
 def _number_materials(scene):

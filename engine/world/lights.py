@@ -70,6 +70,7 @@ class Lights:
     visible      the lamps that camera rays see, to be searched by `lamp_search`
     hittable     the lamps that scattered rays meet: all that have a size
     dark         the names of lights whose shades seem to leave nothing
+    lamp_groups  the light groups of the lamps, in their order
     few_sharp    rays of a density below SHARP do not look for lamps, the first `lamps` of all lights
     """
 
@@ -82,6 +83,7 @@ class Lights:
     few_sharp: bool = False
     lamps: int = 0
     dark: tuple = ()
+    lamp_groups: tuple = ()
 
     @classmethod
     def of(cls, lamps, environment, emitters, frame, radius, has_choice=True, are_sampled=True, glow=EVEN, camera=None):
@@ -122,6 +124,7 @@ class Lights:
             are_sampled and len(hittable) > MOST_ASKED,
             len(lamps),
             tuple(lamp.name for lamp, share in zip(lamps, shares) if not share.any()),
+            tuple(lamp.group for lamp in lamps),
         )
 
     def seen_from(self, camera):

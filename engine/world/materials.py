@@ -60,6 +60,7 @@ class Materials:
     relief      {row: the reliefs of that material}
     index       (M,) float32, `Material.index`
     names       of the materials, a tuple
+    aovs        {name: {row: value}} of `Material.aovs`
     wanted      {attribute of meshes: rows of the materials whose textures are looked up there}
     Where there is a texture, the tables hold its average.
     """
@@ -77,6 +78,7 @@ class Materials:
     relief: dict
     index: np.ndarray
     names: tuple
+    aovs: dict
     wanted: dict
 
     @classmethod
@@ -109,14 +111,16 @@ class Materials:
         relief = {row: m.relief for row, m in enumerate(materials) if m.relief}
         index = np.array([m.index for m in materials], np.float32)
         names = tuple(m.name for m in materials)
-        wanted = {}
+        wanted, aovs = {}, {}
         for row, material in enumerate(materials):
             for attribute in material.attributes:
                 wanted.setdefault(attribute, set()).add(row)
+            for name, value in material.aovs:
+                aovs.setdefault(name, {})[row] = value
         straight = {row: [lobe.transmittance for lobe in materials[row].lobes if _is_passed(lobe, bsdfs)] for row in textured}
         shine = emission.copy()
         shine[:, list(glowing)] = 1
-        per_row = textured, straight, glowing, relief, index, names
+        per_row = textured, straight, glowing, relief, index, names, aovs
         return cls(tuple(lobes), thresholds_of(shares), shares, emission, shine, ambient, kind, *per_row, wanted)
 
     @property

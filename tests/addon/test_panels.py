@@ -5,10 +5,10 @@ from types import SimpleNamespace
 import bpy
 import pytest
 
-from glanz.addon import builtin_panels, panels, passes, requirements_panel
+from glanz.addon import builtin_panels, panels, pass_panels, passes, requirements_panel
 from glanz.tests.addon import blender
 
-OWN = {panel.__name__: panel for panel in (*panels._CLASSES, *requirements_panel._CLASSES)}
+OWN = {panel.__name__: panel for panel in (*panels._CLASSES, *pass_panels._CLASSES, *requirements_panel._CLASSES)}
 
 
 class Layout:
@@ -20,6 +20,14 @@ class Layout:
     def prop(self, owner, name, **options):
         assert name in owner.bl_rna.properties, f"{owner} has no property {name}"
         self.drawn.append(name)
+
+    def prop_search(self, owner, name, *source, **options):
+        self.prop(owner, name)
+
+    def template_list(self, list_type, ui_id, owner, name, active_owner, active, **options):
+        assert hasattr(bpy.types, list_type)
+        self.prop(owner, name)
+        self.prop(active_owner, active)
 
     def label(self, **options):
         self.drawn.append(options["text"])
@@ -89,6 +97,29 @@ def test_passes_are_drawn():
     assert sorted(drawn) == sorted({row.flag.rpartition(".")[2] for row in passes.TABLE.values() if row.flag})
     assert {"use_pass_z", "use_pass_glossy_direct", "use_pass_sample_count"} <= {*drawn}
     assert "material_override" in _drawn("GLANZ_VIEWLAYER_PT_override")
+
+
+def test_what_passes_are_made_of_is_drawn():
+    assert _drawn("GLANZ_VIEWLAYER_PT_cryptomatte")[-1] == "pass_cryptomatte_depth"
+    world, ob = blender.set_world((1, 1, 1)), blender.add_plane()
+    ob.data.materials.append(bpy.data.materials.new("A"))
+    shown = SimpleNamespace(**vars(_context(ob)), world=world)
+    for name, expected in (
+        ("GLANZ_OBJECT_PT_in_passes", ["pass_index", "lightgroup"]),
+        ("GLANZ_MATERIAL_PT_in_passes", ["pass_index"]),
+        ("GLANZ_WORLD_PT_in_passes", ["lightgroup", "start", "depth", "falloff"]),
+        ("GLANZ_VIEWLAYER_PT_aovs", ["aovs", "active_aov_index", "scene.view_layer_add_aov", "scene.view_layer_remove_aov"]),
+        (
+            "GLANZ_VIEWLAYER_PT_light_groups",
+            ["lightgroups", "active_lightgroup_index", "scene.view_layer_add_lightgroup", "scene.view_layer_remove_lightgroup"],
+        ),
+    ):
+        kind = OWN[name]
+        assert kind.poll(shown)
+        panel = SimpleNamespace(layout=Layout(), **{a: getattr(kind, a) for a in ("list_type", "what", "bl_context") if hasattr(kind, a)})
+        panel.column = lambda panel=panel: panels.GlanzPanel.column(panel)
+        kind.draw(panel, shown)
+        assert panel.layout.drawn == expected
 
 
 @pytest.mark.parametrize(

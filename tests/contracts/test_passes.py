@@ -5,13 +5,13 @@ import math
 import numpy as np
 import pytest
 
-from glanz.engine import Mist, PerspectiveCamera, render_image
+from glanz.engine import Coordinates, LinearTexture, Mist, PerspectiveCamera, SceneError, render_image
 from glanz.engine.interfaces import Pass
 from glanz.engine.passes.depth import Depth
 from glanz.engine.registry import PASSES
 from glanz.tests import helpers as h, scenes
 
-OF_FAMILIES = ("CryptoObject00", "CryptoMaterial01", "CryptoAsset00")
+OF_FAMILIES = ("CryptoObject00", "CryptoMaterial01", "CryptoAsset00", "Combined_key", "AOV Color a b", "AOV Value c")
 """At least one of each."""
 ALL = (*PASSES, *OF_FAMILIES)
 each = pytest.mark.parametrize("plugin", [PASSES[key] for key in ALL], ids=lambda p: p.key)
@@ -183,3 +183,27 @@ def test_data_of_surfaces_are_what_the_scene_says():
     assert 1 <= found["Denoising Depth"].min() <= found["Denoising Depth"].max() < 1.25
     without = passes_of(h.scene([h.thing(h.quad((0, 0, 0), (2, 0, 0), (0, 2, 0)))], camera=camera))
     assert not any(without[key].any() for key in ("UV", "Object Index", "Material Index"))
+
+
+def test_aovs_are_what_materials_say_where_they_are_met():
+    """A texture, a constant, and nothing: by the share of a pixel that they fill."""
+    position = LinearTexture((Coordinates(source="position"),), (1.0,))
+    sayer = h.replaced(h.lambert(), aovs=(("place", position), ("heat", 0.75)))
+    halves = [h.quad((x, 0, 0), (10, 0, 0), (0, 10, 0), name=str(x)) for x in (-5, 5)]
+    camera = PerspectiveCamera.look_at((0, 0, 1), (0, 0, 0), up=(0, 1, 0), fov=math.radians(45))
+    scene = h.scene([h.thing(halves[0], sayer), h.thing(halves[1])], camera=camera)
+    keys = ("AOV Color place", "AOV Value heat", "AOV Color heat", "AOV Value none")
+    place, heat, grey, none = render_image(scene, h.settings(passes=keys, samples=64, width=2, height=2)).passes.values()
+    middle = 0.5 * math.tan(math.radians(22.5))
+    np.testing.assert_allclose(place[:, 0, 0], -middle, atol=0.01)
+    np.testing.assert_allclose(place[:, 0, 1], (middle, -middle), atol=0.01)
+    assert (place[:, 0, 3] == 1).all()
+    assert (heat[:, 0] == 0.75).all()
+    np.testing.assert_allclose(grey[:, 0], np.broadcast_to((0.75, 0.75, 0.75, 1), (2, 4)))
+    assert not (place[:, 1].any() or heat[:, 1].any() or none.any())
+
+
+def test_aovs_that_are_none_are_refused():
+    wrong = h.scene([h.thing(h.quad(), h.replaced(h.lambert(), aovs=(("heat", (1, 2)),)))])
+    with pytest.raises(SceneError, match="material 'diffuse': its AOV"):
+        render_image(wrong, h.settings())
