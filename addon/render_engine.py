@@ -54,7 +54,7 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
     def _render(self, depsgraph):
         from ..engine import Requirements, metadata, render
         from .export import Findings, export_views
-        from .results import make_room, stamp, write_tile
+        from .results import Outlines, make_room, stamp, write_tile
         from .settings import doubling, settings_of
 
         settings = settings_of(depsgraph.scene_eval, depsgraph.view_layer_eval, width=self.resolution_x, height=self.resolution_y)
@@ -72,8 +72,9 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
         stamp(self, metadata(scenes[0], settings, layer, requirements))
         self.update_stats("", "Preparing the scene")
         ends = doubling(settings) if depsgraph.scene_eval.glanz.progress == "FRAME" else ()
-        status = Status(self, settings.samples)
+        status, outlines = Status(self, settings.samples), Outlines(self, settings.height)
         for number, (view, scene) in enumerate(zip(views, scenes, strict=True)):
+            where = ", ".join((*((layer,) if len(depsgraph.scene_eval.view_layers) > 1 else ()), *((view,) if view else ())))
             # The eyes differ in their camera, and in their noise, or it would seem to float in depth.
             settings = replace(settings, seed=settings.seed + bool(number))
             # Closing the generator joins its threads, so none is left when Blender goes on, whatever happens here.
@@ -84,11 +85,13 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
                         findings.note(line, "")
                     for tile in step.tiles:
                         write_tile(self, tile, settings.region, layer, view)
-                    status.show((number + step.done) / len(views), len(warnings))
+                    outlines.show(step.in_work)
+                    status.show((number + step.done) / len(views), len(warnings), where)
                     if self.is_cancelled():
                         break
             if self.is_cancelled():
                 break
+        outlines.show(())
         self._keep(depsgraph, requirements, findings)
         warnings.close()
 

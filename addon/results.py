@@ -70,6 +70,24 @@ def write_tile(engine, tile, region, layer, view=""):
                 render_pass.rect.foreach_set(flat_pixels(values))
 
 
+class Outlines:
+    """The tiles that Blender's render `engine` outlines in its picture; `height` [px] is that of the full frame.
+
+    Blender takes the outline of a tile away when it gets its result, even where that is unfinished; and Blender 5.2 does not
+    draw anew for an outline that is taken away by itself.
+    """
+
+    def __init__(self, engine, height):
+        engine.use_highlight_tiles = True
+        self._engine, self._height = engine, height
+
+    def show(self, places):
+        """Outline `places`, (x, y, width, height) [px] from the top left of the full frame, and no others."""
+        self._engine.tile_highlight_clear_all()
+        for x, y, width, height in places:
+            self._engine.tile_highlight_set(x, self._height - y - height, width, height, True)
+
+
 def stamp(engine, facts):
     """Let saved files say how the picture was made; `facts` is {str: str}."""
     result = engine.get_result()

@@ -2,7 +2,7 @@
 
 import time
 
-from .memory import peak_megabytes
+from .memory import peak_megabytes, used_megabytes
 
 
 class Status:
@@ -14,20 +14,27 @@ class Status:
         self._clock = clock
         self._start = clock()
 
-    def show(self, done, warnings=0):
-        """`done` in [0, 1]; how many warnings there were."""
+    def show(self, done, warnings=0, where=""):
+        """`done` in [0, 1]; how many warnings there were; `where` says which of several pictures it is of."""
+        used, peak = used_megabytes(), peak_megabytes()
+        line = text(done, self._samples, self._clock() - self._start, warnings, used)
         self._engine.update_progress(done)
-        self._engine.update_stats("", text(done, self._samples, self._clock() - self._start, warnings))
-        memory = peak_megabytes()
-        if memory is not None:
-            self._engine.update_memory_stats(memory_used=memory, memory_peak=memory)
+        # Blender has a place of its own for memory, which it does not show beside a line like this.
+        self._engine.update_stats("", f"{where}: {line}" if where else line)
+        if used is not None:
+            # The system counts the peak now and then only.
+            self._engine.update_memory_stats(memory_used=used, memory_peak=max(used, peak))
 
 
-def text(done, samples, elapsed, warnings=0):
-    """Such as "45% of 64 samples, 1:05 left, 3 warnings"; the rest of the time is taken to pass as `elapsed` [s] did."""
+def text(done, samples, elapsed, warnings=0, memory=None):
+    """Such as "45% of 64 samples, 1:05 left, 400 MB, 3 warnings".
+
+    The rest of the time is taken to pass as `elapsed` [s] did; `memory` [MB], where it is known, is that of Blender and all in it.
+    """
     left = (f"{minutes(elapsed * (1 - done) / done)} left",) if done > 0 else ()
+    used = (f"{memory:,.0f} MB",) if memory is not None else ()
     told = (f"{warnings} warning{'' if warnings == 1 else 's'}",) if warnings else ()
-    return ", ".join((f"{100 * done:.0f}% of {samples} samples", *left, *told))
+    return ", ".join((f"{100 * done:.0f}% of {samples} samples", *left, *used, *told))
 
 
 def minutes(seconds):

@@ -4,6 +4,7 @@ import os
 import threading
 import time
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from itertools import pairwise
 
@@ -43,11 +44,15 @@ class Tile:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Progress:
-    """What has happened since the last one: the share `done` in [0, 1], tiles to show, warnings that came up."""
+    """What has happened since the last one: the share `done` in [0, 1], tiles to show, warnings that came up.
+
+    in_work  (x, y, width, height) [px] of the tiles that threads are at just now
+    """
 
     done: float
     tiles: tuple = ()
     warnings: tuple = ()
+    in_work: tuple = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -104,12 +109,12 @@ def render_plan(plan, ends=(), cancelled=None):
             for samples in pairwise(edges):
                 if work.is_stopped():
                     break
-                pending = {pool.submit(_render_tile, plan, place, work, samples) for place in places}
+                pending = {pool.submit(_work_on, plan, place, work, samples) for place in places}
                 while pending:
                     finished, pending = wait(pending, POLL_SECONDS, FIRST_COMPLETED)
                     # First the unfinished: a tile among them may be finished by now.
                     tiles = (*work.take_unfinished(), *(future.result() for future in finished))
-                    yield Progress(work.done, tuple(tile for tile in tiles if tile), work.take_warnings())
+                    yield Progress(work.done, tuple(tile for tile in tiles if tile), work.take_warnings(), work.places)
         finally:
             work.stop()
             pool.shutdown(wait=True, cancel_futures=True)
@@ -169,6 +174,23 @@ class _Work:
         self._finished = {}
         self._bad_samples = 0
         self._unfinished = []
+        self._places = {}
+
+    @contextmanager
+    def at(self, place):
+        """Say that a thread is at `place` while the block lasts."""
+        with self._lock:
+            self._places[place] = True
+        try:
+            yield
+        finally:
+            with self._lock:
+                del self._places[place]
+
+    @property
+    def places(self):
+        with self._lock:
+            return tuple(self._places)
 
     def stop(self):
         """Let all threads give up."""
@@ -215,6 +237,12 @@ def _tiles(settings, longest_side):
     tiles = [(x, y, min(size, x1 - x), min(size, y1 - y)) for y in range(y0, y1, size) for x in range(x0, x1, size)]
     cx, cy = 0.5 * (x0 + x1), 0.5 * (y0 + y1)
     return sorted(tiles, key=lambda tile: max(abs(tile[0] + 0.5 * tile[2] - cx), abs(tile[1] + 0.5 * tile[3] - cy)))
+
+
+def _work_on(plan, place, work, samples):
+    """`_render_tile`, seen by others while it lasts."""
+    with work.at(place):
+        return _render_tile(plan, place, work, samples)
 
 
 def _render_tile(plan, place, work, samples):

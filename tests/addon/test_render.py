@@ -131,6 +131,25 @@ def test_an_animation_renders_every_frame_as_it_is_then(furnace, tmp_path):
         np.testing.assert_allclose(passes["ViewLayer.Depth"], depth, rtol=1e-5)
 
 
+def test_the_status_line_says_which_layer_it_is_of_where_there_are_several(furnace, tmp_path):
+    lines = []
+
+    def note(line, *_):
+        lines.append(str(line))
+
+    bpy.app.handlers.render_stats.append(note)
+    try:
+        blender.render(tmp_path / "a.exr")
+        assert any("% of 4 samples" in line for line in lines)
+        assert not any("ViewLayer" in line for line in lines)
+        bpy.context.scene.view_layers.new("Other")
+        blender.render(tmp_path / "a.exr")
+    finally:
+        bpy.app.handlers.render_stats.remove(note)
+    assert any("ViewLayer" in line and "% of 4" in line for line in lines)
+    assert any("Other" in line and "% of 4" in line for line in lines)
+
+
 def _fail(error):
     def fail(*args, **kwargs):
         raise error

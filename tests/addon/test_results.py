@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from glanz.addon.results import flat_pixels, make_room, open_result, place_in_result
+from glanz.addon.results import Outlines, flat_pixels, make_room, open_result, place_in_result
 from glanz.engine import Settings, Tile
 
 
@@ -58,6 +58,29 @@ def test_a_result_that_is_not_what_was_asked_for_is_an_error(granted, ended):
     with pytest.raises(RuntimeError, match="Blender"), open_result(engine, (0, 0, 4, 4), "Layer"):
         pytest.fail("must not be entered")
     assert engine.ended == ended
+
+
+def test_what_is_worked_on_is_outlined_and_nothing_else():
+    """Counted from the bottom; what stays is outlined again, for its unfinished results took that away."""
+    shown = set()
+
+    class Screen(Engine):
+        def tile_highlight_clear_all(self):
+            shown.clear()
+
+        def tile_highlight_set(self, x, y, width, height, is_on):
+            assert is_on
+            shown.add((x, y, width, height))
+
+    engine = Screen()
+    outlines = Outlines(engine, 100)
+    assert engine.use_highlight_tiles
+    outlines.show(((0, 0, 8, 8), (8, 0, 8, 5)))
+    assert shown == {(0, 92, 8, 8), (8, 95, 8, 5)}
+    outlines.show(((8, 0, 8, 5), (16, 92, 8, 8)))
+    assert shown == {(8, 95, 8, 5), (16, 0, 8, 8)}
+    outlines.show(())
+    assert not shown
 
 
 def test_a_frame_that_has_no_room_is_refused_before_blender_is_asked(monkeypatch):

@@ -1,8 +1,11 @@
 """The status line says how far, and how long yet."""
 
+import sys
+
+import numpy as np
 import pytest
 
-from glanz.addon.memory import peak_megabytes
+from glanz.addon.memory import peak_megabytes, used_megabytes
 from glanz.addon.status import minutes, text
 
 
@@ -19,6 +22,7 @@ def test_remaining_time_is_in_proportion():
 def test_warnings_are_counted():
     assert text(0.25, 64, 30, 1) == "25% of 64 samples, 1:30 left, 1 warning"
     assert text(0, 64, 0, 3) == "0% of 64 samples, 3 warnings"
+    assert text(0.5, 64, 30, 2, 1234.5) == "50% of 64 samples, 0:30 left, 1,234 MB, 2 warnings"
 
 
 def test_there_is_no_guess_before_anything_is_done():
@@ -26,5 +30,11 @@ def test_there_is_no_guess_before_anything_is_done():
 
 
 def test_memory_is_that_of_a_process_with_blender_in_it():
-    memory = peak_megabytes()
-    assert memory is None or 50 < memory < 100_000
+    before = used_megabytes()
+    assert before is None or 50 < before < 100_000
+    if sys.platform == "linux":
+        kept = np.ones(2**26, np.uint8)
+        assert used_megabytes() - before == pytest.approx(64, abs=16)
+        assert peak_megabytes() >= used_megabytes() - 1
+        del kept
+        assert used_megabytes() - before == pytest.approx(0, abs=16)

@@ -32,9 +32,9 @@ def rendered(monkeypatch, path):
     asked = []
     original = engine.render
 
-    def render(scene, settings):
+    def render(scene, settings, *ends):
         asked.append((scene, settings))
-        return original(scene, settings)
+        return original(scene, settings, *ends)
 
     monkeypatch.setattr(engine, "render", render)
     blender.render(path / "a.exr")

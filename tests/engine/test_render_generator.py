@@ -217,6 +217,22 @@ def test_the_consumer_is_woken_while_a_tile_takes_long(monkeypatch):
     assert list(generator)[-1].done == 1
 
 
+def test_the_tiles_that_threads_are_at_are_told(monkeypatch):
+    """As many as there are threads, until they are let go; in the end none."""
+    release = threading.Event()
+    closest = visibility.interact
+    monkeypatch.setattr(visibility, "interact", lambda *args: release.wait(10) and closest(*args))
+    monkeypatch.setattr(rendering, "POLL_SECONDS", 0.01)
+    generator = render(scenes.everything(), SETTINGS)
+    at = next(progress.in_work for progress in generator if len(progress.in_work) == 2)
+    assert all((x % 8, y % 8, width) == (0, 0, 8) for x, y, width, _ in at)
+    release.set()
+    rest = list(generator)
+    assert all(len(progress.in_work) <= 2 for progress in rest)
+    assert not rest[-1].in_work
+    assert {tile.x for progress in rest for tile in progress.tiles} == {0, 8, 16}
+
+
 def test_the_frame_refines_in_rounds_to_the_same_bits():
     """After each round the whole frame has that many samples, and shows their mean; the last picture is that of one round."""
     plan, _ = prepare(scenes.everything(), h.replaced(SETTINGS, samples=7))
