@@ -27,7 +27,7 @@ READY := $(VENV)/.ready-$(VERSION)
 RUN := $(VENV)/bin/python
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render test test-thorough test-addon test-matrix desktop-test bench gallery nodes closures extension extension-linux lint clean distclean
+.PHONY: help setup render test test-thorough test-addon test-matrix desktop-test bench gallery nodes closures support extension extension-linux lint clean distclean
 
 help:
 	@echo "make render           render sample_scenes/cornell_box.blend to out/"
@@ -38,6 +38,7 @@ help:
 	@echo "make bench            measure speed against Cycles"
 	@echo "make nodes            compare every node with Cycles for docs/nodes.md"
 	@echo "make closures         compare every shader with Cycles for docs/closures.md"
+	@echo "make support          write docs/support.md, what of Blender is rendered and how; with the newest Blender last"
 	@echo "make gallery          render the pictures of docs/gallery.md"
 	@echo "make extension        build the Blender extension for every platform in dist/"
 	@echo "make extension-linux  build it for Linux only"
@@ -84,6 +85,9 @@ nodes: $(READY)
 
 closures: $(READY)
 	$(RUN) tools/closure_table.py
+
+support: $(READY)
+	$(RUN) tools/support_table.py
 
 gallery: $(READY)
 	$(RUN) tools/gallery.py

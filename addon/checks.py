@@ -9,6 +9,7 @@ from bpy.props import StringProperty
 from . import backend
 from .reports import describe
 
+_RENDERED = ("MESH", "CURVE", "SURFACE", "FONT", "META", "CURVES", "POINTCLOUD", "VOLUME", "LIGHT", "GPENCIL", "GREASEPENCIL")
 _checks = {}
 
 
@@ -66,6 +67,9 @@ class GLANZ_OT_check_scene(bpy.types.Operator):
         except GlanzError as error:
             self.report({"ERROR"}, describe(error))
             return {"CANCELLED"}
+        for ob in layer.objects:
+            if ob.type in _RENDERED and not ob.hide_render and not ob.visible_get(view_layer=layer):
+                findings.note("it is hidden in 3D views, so it was not checked", f"object '{ob.name}'")
         keep(scene, layer.name, Check(features, findings.notes, f"Checked at frame {scene.frame_current}"))
         self.report({"INFO"}, f"{_counted(len(findings.lines()), 'warning')}, see Scene Requirements")
         return {"FINISHED"}

@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 
 from ...engine import GlanzError, Object, SceneError
-from .findings import APPROXIMATED, IGNORED, MISSING
+from .findings import IGNORED, MISSING
 from .kept import Kept
 from .light import Emissions, export_light
 from .material import export_material, is_volume_only
@@ -106,8 +106,10 @@ def _placed_objects(parts, matrices, values, findings):
     visible = finite & has_faces(matrices)
     for part, is_finite, is_visible in zip(parts, finite, visible, strict=True):
         if not is_visible:
-            cause, kind = ("the scale leaves no surface", APPROXIMATED) if is_finite else ("the transform is not finite", IGNORED)
-            findings.note(f"{cause}, so it is left out", f"object '{part.name}'", kind)
+            if is_finite:
+                findings.note("the scale leaves no surface, so it is left out", f"object '{part.name}'")
+            else:
+                findings.note("the transform is not finite, so it is left out", f"object '{part.name}'", IGNORED)
     return [
         Object(name=part.name, mesh=part.mesh, world_from_object=matrix, materials=part.materials, values=own, **part.more)
         if is_visible

@@ -24,9 +24,9 @@ def displacement_of(reader, output):
     inside = reader.beyond(end.node)
     read = _HEIGHTS.get(end.node.type)
     if inside is None or read is None:
-        reader.note("displacement by other nodes than Displacement and Vector Displacement is left out", IGNORED)
+        (inside or reader).note("displacement by other nodes than Displacement and Vector Displacement is left out", IGNORED)
         return ()
-    reader.note("displacement is rendered as bump, outlines and shadows stay as they are")
+    inside.note("displacement is rendered as bump, outlines and shadows stay as they are")
     height = read(inside, end.node)
     return (BumpMap(as_texture(height), 1.0),) if varies(height) else ()
 

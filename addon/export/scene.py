@@ -12,8 +12,6 @@ from .motion import STILL, CameraTrack, Shutter, Tracks
 from .objects import export_objects
 from .world import export_world
 
-_RENDERED = ("MESH", "CURVE", "SURFACE", "FONT", "META", "CURVES", "POINTCLOUD", "VOLUME", "LIGHT", "GPENCIL", "GREASEPENCIL")
-
 
 def export_scene(depsgraph, settings, view=None, check=lambda: None, frame_set=None, findings=None):
     """(scene, warnings): the engine's `Scene` of one view of an evaluated `depsgraph`; see `export_views`."""
@@ -62,14 +60,11 @@ def export_still(depsgraph, settings, findings):
     """The engine's `Scene` as far as the depsgraph of a 3D view tells: what will be rendered, at one time.
 
     settings  the engine's `Settings`, for the size of the frame
-    findings  `Findings` that are told, also which objects 3D views do not show, so that nothing is known of them
+    findings  `Findings` that are told
     Raises SceneError naming the object for which no picture is possible.
     """
-    scene, layer = depsgraph.scene_eval, depsgraph.view_layer
+    scene = depsgraph.scene_eval
     camera = export_camera(scene.camera, scene.render, settings.width, settings.height)
-    for ob in layer.objects:
-        if ob.type in _RENDERED and not ob.hide_render and not ob.visible_get(view_layer=layer):
-            findings.note("it is hidden in 3D views, so it was not checked", f"object '{ob.name}'")
     contents, _ = export_contents(depsgraph, Kept(), lambda ob: not ob.hide_render, findings)
     return replace(contents, camera=camera)
 
@@ -103,16 +98,20 @@ def _evaluated(datablock, depsgraph):
     return datablock and datablock.evaluated_get(depsgraph)
 
 
+_NOT_FOLLOWED = {
+    "the film is not transparent behind glass, the world is seen through it": lambda scene: (
+        scene.render.film_transparent and getattr(getattr(scene, "cycles", None), "film_transparent_glass", False)
+    ),
+    "freestyle lines are not rendered": lambda scene: scene.render.use_freestyle,
+    "spherical stereo is not rendered, each eye stays where it is": lambda scene: (
+        scene.render.use_multiview and _is_spherical(scene.camera)
+    ),
+}
+"""What to note -> whether a scene (evaluated) asks for it."""
+
+
 def _note_ignored(scene, findings):
     """Note the scene's render settings that Glanz does not follow."""
-    render, cycles, name = scene.render, getattr(scene, "cycles", None), f"scene '{scene.name}'"
-    for is_on, what in (
-        (
-            render.film_transparent and getattr(cycles, "film_transparent_glass", False),
-            "the film is not transparent behind glass, the world is seen through it",
-        ),
-        (render.use_freestyle, "freestyle lines are not rendered"),
-        (render.use_multiview and _is_spherical(scene.camera), "spherical stereo is not rendered, each eye stays where it is"),
-    ):
-        if is_on:
-            findings.note(what, name, IGNORED)
+    for what, is_on in _NOT_FOLLOWED.items():
+        if is_on(scene):
+            findings.note(what, f"scene '{scene.name}'", IGNORED)
