@@ -58,6 +58,8 @@ class _InPasses(GlanzPanel):
             column.prop(owner, "pass_index")
         if hasattr(owner, "lightgroup"):
             column.prop_search(owner, "lightgroup", context.view_layer, "lightgroups", text="Light Group")
+        if hasattr(owner, "light_settings"):
+            column.prop(owner.light_settings, "distance", text="Occlusion Distance")
         for name in ("start", "depth", "falloff") if hasattr(owner, "mist_settings") else ():
             column.prop(owner.mist_settings, name, text=f"Mist {name.title()}")
 

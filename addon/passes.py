@@ -44,6 +44,7 @@ TABLE = {
     "Transmission Color": BlenderPass("COLOR", "use_pass_transmission_color", "TransCol"),
     "Emission": BlenderPass("COLOR", "use_pass_emit", "Emit"),
     "Environment": BlenderPass("COLOR", "use_pass_environment", "Env"),
+    "Ambient Occlusion": BlenderPass("COLOR", "use_pass_ambient_occlusion", "AO"),
     # Cycles' own switch, as the compositor's Denoise node is fed alike whichever has rendered.
     "Denoising Albedo": BlenderPass("COLOR", "cycles.denoising_store_passes"),
     "Denoising Normal": BlenderPass("VECTOR", "cycles.denoising_store_passes"),

@@ -17,7 +17,8 @@ def export_world(world, findings, bitmaps):
         return World()
     mist = world.mist_settings
     mist = Mist(start=mist.start, depth=mist.depth, falloff=mist.falloff.lower())
-    return replace(_surroundings(world, findings, bitmaps), mist=mist, group=world.lightgroup)
+    reach = world.light_settings.distance
+    return replace(_surroundings(world, findings, bitmaps), mist=mist, group=world.lightgroup, occlusion_distance=reach)
 
 
 def _surroundings(world, findings, bitmaps):

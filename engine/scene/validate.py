@@ -153,6 +153,8 @@ def _check_shade(shade, owner, warnings):
 
 def _check_world(world, warnings):
     world.mist.check(f"world '{world.name}'")
+    if not world.occlusion_distance >= 0:
+        raise SceneError(f"world '{world.name}': occlusion_distance is {world.occlusion_distance} m, allowed: from 0 on")
     environment = world.environment
     if environment is not None and type(environment) is not EnvironmentMap:
         raise SceneError(f"world '{world.name}': {type(environment).__name__} is not an EnvironmentMap")

@@ -272,6 +272,7 @@ class World:
     environment  an `EnvironmentMap` that adds to a constant radiance, or None
     mist         a `Mist`, for the pass of that name
     group        the light group that it belongs to; empty: none
+    occlusion_distance  how far away things may be that hide others from their surroundings, for ambient occlusion [m]
     """
 
     name: str = "World"
@@ -279,6 +280,7 @@ class World:
     environment: object = None
     mist: Mist = field(default_factory=Mist)
     group: str = ""
+    occlusion_distance: float = 10.0
 
     def __post_init__(self):
         if not is_texture(self.radiance):

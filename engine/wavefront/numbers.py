@@ -21,6 +21,7 @@ class Dimension(IntEnum):
     DIRECTION = 10
     ROULETTE = 11
     PASS = 12
+    OCCLUSION = 13
 
 
 _PER_BOUNCE = 8

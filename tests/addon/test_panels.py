@@ -107,7 +107,7 @@ def test_what_passes_are_made_of_is_drawn():
     for name, expected in (
         ("GLANZ_OBJECT_PT_in_passes", ["pass_index", "lightgroup"]),
         ("GLANZ_MATERIAL_PT_in_passes", ["pass_index"]),
-        ("GLANZ_WORLD_PT_in_passes", ["lightgroup", "start", "depth", "falloff"]),
+        ("GLANZ_WORLD_PT_in_passes", ["lightgroup", "distance", "start", "depth", "falloff"]),
         ("GLANZ_VIEWLAYER_PT_aovs", ["aovs", "active_aov_index", "scene.view_layer_add_aov", "scene.view_layer_remove_aov"]),
         (
             "GLANZ_VIEWLAYER_PT_light_groups",

@@ -7,6 +7,8 @@ import pytest
 
 from glanz.engine import Coordinates, LinearTexture, Mist, PerspectiveCamera, SceneError, render_image
 from glanz.engine.interfaces import Pass
+from glanz.engine.maths.warps import square_to_uniform_hemisphere
+from glanz.engine.passes import ambient_occlusion
 from glanz.engine.passes.depth import Depth
 from glanz.engine.registry import PASSES
 from glanz.tests import helpers as h, scenes
@@ -207,3 +209,24 @@ def test_aovs_that_are_none_are_refused():
     wrong = h.scene([h.thing(h.quad(), h.replaced(h.lambert(), aovs=(("heat", (1, 2)),)))])
     with pytest.raises(SceneError, match="material 'diffuse': its AOV"):
         render_image(wrong, h.settings())
+
+
+@pytest.mark.parametrize(("distance", "open_share"), [(0.5, 1.0), (2.0, 0.25), (4.0, 0.0625)])
+@pytest.mark.parametrize("alpha", [1.0, 0.4])
+def test_ambient_occlusion_is_that_of_a_ceiling(distance, open_share, alpha):
+    """At a height h all is hidden that is nearer than R: cos > h / R, which is 1 - (h / R)^2 of a cosine's lobe.
+
+    What of it is there counts. By 16,384 samples, to 6 standard deviations of chance on either side.
+    """
+    floor, ceiling = (h.quad((0, 0, z), (200, 0, 0), (0, 200, 0), name=str(z)) for z in (0, 1))
+    camera = PerspectiveCamera.look_at((0, 0, 0.5), (0, 0, 0), up=(0, 1, 0), fov=math.radians(20))
+    scene = h.scene([h.thing(floor, h.replaced(h.lambert(), alpha=alpha)), h.thing(ceiling)], camera=camera)
+    scene = h.replaced(scene, world=h.replaced(scene.world, occlusion_distance=distance))
+    found = render_image(scene, h.settings(passes=("Ambient Occlusion",), samples=256)).passes["Ambient Occlusion"]
+    assert found.mean() == pytest.approx(alpha * open_share, abs=6 * 0.5 / 128)
+
+
+def test_ambient_occlusion_catches_directions_that_are_not_cosines(monkeypatch):
+    monkeypatch.setattr(ambient_occlusion, "square_to_cosine_hemisphere", square_to_uniform_hemisphere)
+    with pytest.raises(AssertionError):
+        test_ambient_occlusion_is_that_of_a_ceiling(2.0, 0.25, 1.0)

@@ -1,8 +1,9 @@
-"""Passes that users name, AOVs and light groups, are those of Cycles."""
+"""Passes that users name, AOVs and light groups, and ambient occlusion, are those of Cycles."""
 
 import bpy
 import numpy as np
 
+from glanz.addon import passes
 from glanz.engine.passes.aov import Aov
 from glanz.engine.wavefront.film import Film
 from glanz.tests.addon import blender
@@ -10,7 +11,7 @@ from glanz.tests.parity import parity, test_data_passes
 from glanz.tests.parity.test_data_passes import means
 
 GROUPS = ("sun", "panel", "sky")
-NAMES = ("Heat", "Tint", *(f"Combined_{name}" for name in GROUPS), "Combined")
+NAMES = ("Heat", "Tint", *(f"Combined_{name}" for name in GROUPS), "Combined", "Ambient Occlusion")
 TOLERANCE = 0.03
 """Of means over blocks, in units of the largest. Other seeds of Cycles differ by up to a third of that."""
 
@@ -20,6 +21,7 @@ def furnished():
     test_data_passes.table_top()
     parity.be_exact(256, 1)
     layer, world = bpy.context.view_layer, bpy.context.scene.world
+    layer.use_pass_ambient_occlusion, world.light_settings.distance = True, 1.5
     for name in GROUPS:
         layer.lightgroups.add(name=name)
     for name, kind in (("Heat", "VALUE"), ("Tint", "COLOR")):
@@ -49,7 +51,7 @@ def rendered(engine, path):
     bpy.context.scene.render.engine = engine
     found = blender.read_exr(blender.render(path / f"{engine}.exr"))
     by_name = {name.split(".")[-1]: values.astype(np.float64) for name, values in found.items()}
-    return {name: by_name[name] for name in NAMES}
+    return {name: by_name[passes.name_of(name) if name in passes.TABLE else name] for name in NAMES}
 
 
 def beyond(ours, theirs):
