@@ -172,6 +172,45 @@ class GLANZ_OBJECT_PT_motion_blur(GlanzPanel, bpy.types.Panel):
 _BLURRED = frozenset({"MESH", "CURVE", "SURFACE", "FONT", "META", "CAMERA", "EMPTY"})
 
 
+class GLANZ_OBJECT_PT_ray_visibility(GlanzPanel, bpy.types.Panel):
+    """Blender shows these for Cycles only."""
+
+    bl_label = "Ray Visibility"
+    bl_context = "object"
+    bl_options = frozenset({"DEFAULT_CLOSED"})
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and context.object is not None and context.object.type in _SEEN
+
+    def draw(self, context):
+        column, is_light = self.column(), context.object.type == "LIGHT"
+        for kind in ("camera", "diffuse", "glossy", "transmission", *(() if is_light else ("shadow",))):
+            column.prop(context.object, f"visible_{kind}", text=kind.title())
+        if not is_light:
+            column.prop(context.object, "is_holdout")
+
+
+_SEEN = frozenset({"MESH", "CURVE", "SURFACE", "FONT", "META", "EMPTY", "LIGHT"})
+
+
+class GLANZ_WORLD_PT_ray_visibility(GlanzPanel, bpy.types.Panel):
+    """What Cycles stores with each world; Blender shows it for Cycles only."""
+
+    bl_label = "Ray Visibility"
+    bl_context = "world"
+    bl_options = frozenset({"DEFAULT_CLOSED"})
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and hasattr(context.world, "cycles_visibility")
+
+    def draw(self, context):
+        column = self.column()
+        for kind in ("camera", "diffuse", "glossy", "transmission"):
+            column.prop(context.world.cycles_visibility, kind)
+
+
 class GLANZ_RENDER_PT_performance(GlanzPanel, bpy.types.Panel):
     bl_label = "Performance"
     bl_options = frozenset({"DEFAULT_CLOSED"})
@@ -318,6 +357,8 @@ _CLASSES = (
     GLANZ_RENDER_PT_film,
     GLANZ_RENDER_PT_motion_blur,
     GLANZ_OBJECT_PT_motion_blur,
+    GLANZ_OBJECT_PT_ray_visibility,
+    GLANZ_WORLD_PT_ray_visibility,
     GLANZ_RENDER_PT_performance,
     GLANZ_WORLD_PT_preview,
     GLANZ_MATERIAL_PT_lecture,

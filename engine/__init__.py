@@ -54,6 +54,7 @@ from .scene import (
 from .scene.graphs import is_texture
 from .scene.points import average_of
 from .scene.textured import folded, textures_of
+from .scene.visibility import RAY_KINDS
 from .textures.arithmetic import Math
 from .textures.attribute import Attribute
 from .textures.average import Average
@@ -115,6 +116,7 @@ __all__ = [
     "FILTERS",
     "INTEGRATORS",
     "PASSES",
+    "RAY_KINDS",
     "SAMPLERS",
     "TEXTURES",
     "AreaLight",

@@ -162,8 +162,8 @@ def has_detail(texture):
 class Light(Protocol):
     """A light object that is no mesh; it gives light and casts no shadow.
 
-    `is_visible` (bool) is a field of every light value: camera rays see it. Scattered rays always do. So is `shade`, a `Shade` or
-    None.
+    `is_visible` (bool) is a field of every light value: camera rays see it. Scattered rays do unless they are of a kind that it is
+    `hidden_from`, another field, a tuple of names of `scene.visibility.RAY_KINDS`. So is `shade`, a `Shade` or None.
     A light that can be thought of as a point also has middle(k): the numbers u2, (2, M) or (2, 1), with which `sample`
     finds its middle.
     """

@@ -26,6 +26,8 @@ RELIEF = "relief"
 LIGHT_PATHS = "light paths"
 SPLIT_LIGHT = "split light"
 TRANSPARENT_FILM = "transparent film"
+RAY_VISIBILITY = "ray visibility"
+HOLDOUTS = "holdouts"
 
 MEANING = {
     GEOMETRY: "triangles to intersect",
@@ -50,6 +52,8 @@ MEANING = {
     RELIEF: "shading normals bent by textures",
     LIGHT_PATHS: "paths that know what has scattered them",
     SPLIT_LIGHT: "light that is told apart by the kinds of lobes that have sent it to the camera",
+    RAY_VISIBILITY: "things that some kinds of rays do not see",
+    HOLDOUTS: "surfaces that the camera sees as clear and black",
     TRANSPARENT_FILM: "a film that stays clear where the camera would see the world",
 }
 

@@ -31,9 +31,19 @@ from .wavefront.cones import (
     no_footprints,
     start_cones_in_range,
 )
-from .wavefront.direct import any_side, no_side, remember_side, shaded_side, shadow_rays_in_front, shadow_rays_on_either_side, unsplit
+from .wavefront.direct import (
+    all_lobes,
+    any_side,
+    no_side,
+    remember_side,
+    shaded_side,
+    shadow_rays_in_front,
+    shadow_rays_on_either_side,
+    unsplit,
+)
 from .wavefront.emission import add_emission, even_shine, textured_shine
 from .wavefront.escape import add_background, add_environment, add_light_hits, add_light_hits_beyond
+from .wavefront.holdouts import hold_out
 from .wavefront.motion import (
     TIME,
     add_moving_emission,
@@ -48,6 +58,7 @@ from .wavefront.motion import (
 from .wavefront.numbers import Numbers, one_of_the_lobes, only_lobe
 from .wavefront.passing import travel_through, unblocked_through
 from .wavefront.relief import bend_normals
+from .wavefront.sights import closest_in_sight, closest_to_shadows, lit_by, lit_lobes, occluded_to_shadows, stay_of_kind
 from .wavefront.splitting import not_split, split_by_lobes, split_light
 from .wavefront.texturing import fill_in_textures
 from .wavefront.tiles import EvenTile
@@ -73,7 +84,9 @@ class Plan:
     travel             the hits (plan, rays, film) of a batch, see `wavefront.visibility`
     lit_side           the normals (surface) on the side that a choice of lights is for; None: any
     shadow_rays        the shadow rays (plan, rays, surface, reflection, wi, distance) to points on lights
+    lit_lobes          light (plan, surface, reflection, wi, L, light) by the lobes that lights are not hidden from
     split_light        the rays (plan, rays, surface, reflection, wi) with what passes ask of light that they reflect
+    closest_to_shadows `closest` of shadow rays
     unblocked          the shadow rays (plan, rays, o, d, limit, candidate) that arrive
     left               the share of light (plan, rays, t) that is left after a way t
     around             index of refraction and its spread of what is around the bodies (plan, rays, surface) that rays met
@@ -112,10 +125,12 @@ class Plan:
     on_camera_rays: tuple
     closest: object
     occluded: object
+    closest_to_shadows: object
     reach: object
     travel: object
     lit_side: object
     shadow_rays: object
+    lit_lobes: object
     split_light: object
     unblocked: object
     left: object
@@ -152,6 +167,7 @@ class Plan:
         smooth = needs.SMOOTH_NORMALS in requirements
         integrator = INTEGRATORS[settings.integrator]
         absorbs, is_nested = needs.ABSORPTION in requirements, needs.NESTED_MEDIA in requirements
+        is_sighted, has_holdouts = needs.RAY_VISIBILITY in requirements, needs.HOLDOUTS in requirements
         has_media, disperses = absorbs or is_nested, needs.DISPERSION in requirements
         has_wavelength = disperses and not integrator.splits_white
         has_choice, has_environment = needs.LIGHT_CHOICE in requirements, needs.ENVIRONMENT in requirements
@@ -177,22 +193,31 @@ class Plan:
             steps,
             passing_of,
             disperses,
+            is_sighted,
+            has_holdouts,
             before,
             asked,
         )
         can_reflect = bool(world.materials.lobes)
-        is_clear = needs.TRANSPARENT_FILM in requirements
+        is_clear = settings.film_transparent
         shown_world = (add_environment,) if world.lights.environment else (add_background,) if needs.BACKGROUND in requirements else ()
         # Where what passes straight on is a ray of its own it does not count as one from the camera.
-        minds_straight = is_clear and integrator.tints_glass and any(map(is_straight, bsdfs))
+        splits_straight = integrator.tints_glass and any(map(is_straight, bsdfs))
+        minds_straight = splits_straight and (is_clear or has_holdouts)
         on_rays = (
             *((media.add_light_hits_in_media if absorbs else add_light_hits,) if needs.LIGHT_HITS in requirements else ()),
             *((media.absorb,) if absorbs else ()),
             *((stay_clear,) if is_clear else ()),
             *(map(hidden, shown_world) if is_clear else shown_world),
+            *((hold_out,) if has_holdouts else ()),
             *((add_emission,) if needs.EMISSIVE_MESHES in requirements and world.emitters.still else ()),
             *((add_moving_emission,) if needs.EMISSIVE_MESHES in requirements and world.emitters.moving else ()),
         )
+        hides_lights = is_sighted and world.sights.hides_lights
+
+        def lit(stage):
+            return lit_by(stage) if hides_lights and stage not in (media.absorb, media.absorb_beyond, stay_clear, hold_out) else stage
+
         around = media.around if is_nested else media.vacuum
         adjust_reflection = (media.relative_indices,) if is_nested else ()
         if disperses:
@@ -203,7 +228,10 @@ class Plan:
         is_clipped = needs.CLIP_RANGE in requirements
         follows = needs.CAMERA_MOTION in requirements
         nearest, blocked = (closest_at_time, occluded_at_time) if world.movers else (closest, occluded)
-        has_cones, has_past = needs.FOOTPRINTS in requirements, needs.LIGHT_PATHS in requirements
+        nearest_to_shadows = nearest
+        if is_sighted:
+            nearest, nearest_to_shadows, blocked = closest_in_sight, closest_to_shadows, occluded_to_shadows
+        has_cones, has_past = needs.FOOTPRINTS in requirements, is_sighted or needs.LIGHT_PATHS in requirements
         aim = through_the_lens if needs.LENS in requirements else through_the_pinhole
         interact = interact_at_time if world.movers else interact_at_rest
         camera = scene.camera
@@ -242,18 +270,20 @@ class Plan:
                 *((media.start_inside(nearest),) if has_media else ()),
             ),
             closest=media.through_media(nearest) if is_nested else nearest,
-            occluded=media.occluded_in_media(blocked, media.through_media(nearest)) if is_nested else blocked,
+            occluded=media.occluded_in_media(blocked, media.through_media(nearest_to_shadows)) if is_nested else blocked,
+            closest_to_shadows=media.through_media(nearest_to_shadows) if is_nested else nearest_to_shadows,
             reach=(to_the_end_of_moving_range if follows else to_the_end_of_range) if is_clipped else all_the_way,
             travel=travel_through if passes else travel,
             lit_side=shaded_side if minds_side else any_side,
             shadow_rays=shadow_rays_on_either_side if world.materials.kind is TwoSided else shadow_rays_in_front,
+            lit_lobes=lit_lobes if hides_lights else all_lobes,
             split_light=split_light if splits else unsplit,
             unblocked=unblocked_through if tints else media.absorbed(unblocked) if absorbs else unblocked,
             left=media.left_by_media if absorbs else all_of_it,
             around=around,
             seen_from_camera=seen_from_camera if follows else seen_from(place) if place.any() else seen_at_rest,
-            on_rays=on_rays,
-            on_rays_beyond=tuple(_BEYOND.get(stage, stage) for stage in on_rays),
+            on_rays=tuple(map(lit, on_rays)),
+            on_rays_beyond=tuple(lit(_BEYOND.get(stage, stage)) for stage in on_rays),
             on_passing=(*((media.pass_boundary,) if has_media else ()), *((light_path.count_passed,) if has_past else ())),
             shine=textured_shine if world.materials.glowing else even_shine,
             footprints=footprints_of_cones if has_cones else no_footprints,
@@ -271,6 +301,7 @@ class Plan:
                 *((leave_with_cones,) if has_cones else ()),
                 *((remember_side,) if minds_side else ()),
                 *((light_path.leave_by_lobes,) if has_past else ()),
+                *((stay_of_kind,) if is_sighted and splits_straight else ()),
                 *((split_by_lobes,) if splits else ()),
                 *((stay_straight,) if minds_straight else ()),
             ),
@@ -282,7 +313,9 @@ class Plan:
             choose_lobe=one_of_the_lobes if len(world.materials.lobes) > 1 else only_lobe,
             leave=leave_on_either_side if any(lobe.bsdf.transmits for lobe in world.materials.lobes) else leave_in_front,
             # After the last bounce scattered rays share the search for direct light with shadow rays, where they can find any.
-            last_depth=settings.max_depth + bool({*on_rays} - {media.absorb, stay_clear} and integrator.is_complete) if can_reflect else 0,
+            last_depth=settings.max_depth + bool({*on_rays} - {media.absorb, stay_clear, hold_out} and integrator.is_complete)
+            if can_reflect
+            else 0,
         )
 
     def seen_from(self, camera, settings):

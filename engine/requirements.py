@@ -8,7 +8,7 @@ from .interfaces import has_detail, is_straight, lets_shadow_rays_pass
 from .registry import BSDFS, CAMERAS, FILTERS, INTEGRATORS, LIGHTS, PASSES, SAMPLERS
 from .scene.bodies import inside_of, sharing_space
 from .scene.graphs import is_texture, with_inner
-from .scene.textured import averaged, material_textures, may_emit, may_reflect
+from .scene.textured import averaged, material_textures, may_emit, may_hold_out, may_reflect
 
 
 @dataclass(frozen=True)
@@ -54,6 +54,8 @@ class Requirements:
             if not o.mesh.triangles.shape[1]:
                 continue
             ask(needs.GEOMETRY, o.name)
+            if o.hidden_from:
+                ask(needs.RAY_VISIBILITY, o.name)
             if not o.is_still:
                 ask(needs.OBJECT_MOTION, o.name)
             if o.mesh.is_smooth:
@@ -73,6 +75,8 @@ class Requirements:
                         ask(needs.TINTED_SHADOWS, material.name)
                 if may_emit(material):
                     ask(needs.EMISSIVE_MESHES, o.name)
+                if may_hold_out(material):
+                    ask(needs.HOLDOUTS, material.name)
                 if material.relief:
                     ask(needs.RELIEF, material.name)
                 for texture in material_textures(material):
@@ -86,11 +90,15 @@ class Requirements:
         shining = [light for light in scene.lights if any(light.power())]
         for light in shining:
             ask(needs.of_plugin("light", type(light)), light.name)
+            if light.hidden_from:
+                ask(needs.RAY_VISIBILITY, light.name)
             if light.shade is not None:
                 ask(needs.TEXTURES, light.name)
             if light.has_extent():
                 ask(needs.LIGHT_HITS, light.name)
         world = scene.world
+        if world.hidden_from and (world.may_vary or any(world.radiance)):
+            ask(needs.RAY_VISIBILITY, world.name)
         if not is_texture(world.radiance) and any(world.radiance):
             ask(needs.BACKGROUND, world.name)
         if world.may_vary:

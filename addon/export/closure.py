@@ -18,7 +18,7 @@ from .principled import boundary, diffused, is_smooth, reflected, refracted
 
 @dataclass(frozen=True, eq=False)
 class Closure:
-    """The sum of `lobes` (BSDF values) plus `emission` [W m^-2 sr^-1].
+    """The sum of `lobes` (BSDF values) plus `emission` [W m^-2 sr^-1], and the share that is a `holdout`.
 
     Colours are constants or textures, see `colours`. `reliefs` are the different reliefs, each a tuple, of its shaders.
     """
@@ -26,6 +26,7 @@ class Closure:
     lobes: tuple = ()
     emission: object = (0.0, 0.0, 0.0)
     reliefs: tuple = ()
+    holdout: object = (0.0, 0.0, 0.0)
 
     def __add__(self, other):
         return Closure(
@@ -33,6 +34,7 @@ class Closure:
             merged(self.lobes + other.lobes),
             added(self.emission, other.emission),
             tuple(dict.fromkeys(self.reliefs + other.reliefs)),
+            added(self.holdout, other.holdout),
         )
 
     def scaled(self, factor):
@@ -41,6 +43,7 @@ class Closure:
             self,
             lobes=tuple(scaled_lobe(lobe, factor) for lobe in self.lobes),
             emission=times(self.emission, factor),
+            holdout=times(self.holdout, factor),
         )
 
     def albedo(self):

@@ -21,6 +21,7 @@ LIGHTS_ARE_OBJECTS = (4, 5)
 SMALLEST_SPREAD = math.radians(0.1)
 """Blender allows a spread of 0, which no light has."""
 _ROUND = ("DISK", "ELLIPSE")
+_SCATTERED = ("diffuse", "glossy", "transmission")
 
 
 def export_light(light_object, matrix, findings, emissions, values_of=lambda names: ()):
@@ -42,7 +43,8 @@ def export_light(light_object, matrix, findings, emissions, values_of=lambda nam
         shade = Shade(texture=emission, world_from_light=matrix, values=values_of(asked))
     else:
         S = S * emission
-    common = {"name": light_object.name, "is_visible": bool(light_object.visible_camera), "shade": shade}
+    hidden = tuple(kind for kind in _SCATTERED if not getattr(light_object, f"visible_{kind}"))
+    common = {"name": light_object.name, "is_visible": bool(light_object.visible_camera), "hidden_from": hidden, "shade": shade}
     common["group"] = light_object.lightgroup
     return _KINDS[light.type](light, matrix, S, common, name, findings)
 
@@ -93,8 +95,6 @@ def note_ignored(light_object, light, name, findings):
     linking = getattr(light_object, "light_linking", None)
     if linking and (linking.receiver_collection or linking.blocker_collection):
         findings.note("light linking is ignored, the light reaches everything", name, IGNORED)
-    if not (light_object.visible_diffuse and light_object.visible_glossy):
-        findings.note("ray visibility other than the camera's is ignored", name, IGNORED)
 
 
 def _bulb_intensity(light, S):

@@ -1,12 +1,13 @@
 """Blender's materials as the engine's."""
 
 from dataclasses import replace
+from functools import reduce
 
 import numpy as np
 
 from ...engine import Material, Transparent
 from .closure import Closure, colours_of, diffuse, merged, scaled_lobe, transparent, with_colours
-from .colours import varies
+from .colours import BLACK, added, cut, inverted, varies
 from .findings import IGNORED, Findings
 from .inside import absorbs, medium_of, with_dispersion, with_one_index
 from .lecture import is_lecture, lecture_medium, lecture_surface
@@ -71,6 +72,13 @@ def _surface(material, findings, bitmaps):
     return replace(checked, lobes=with_one_index(with_dispersion(checked.lobes, material)), medium=medium, relief=relief)
 
 
+def held_out(material):
+    """An engine `Material` as the camera sees it on objects that are held out: nothing is left but what passes straight on."""
+    lobes = tuple(lobe for lobe in material.lobes if isinstance(lobe, Transparent))
+    passed = reduce(added, (lobe.transmittance for lobe in lobes), BLACK)
+    return Material(name=material.name, lobes=lobes, holdout=inverted(passed))
+
+
 def is_volume_only(material):
     """Whether a material (or None) has but an inside that is not rendered, and no surface, so that nothing is left of it."""
     if material is None or is_lecture(material) or not has_nodes(material):
@@ -92,7 +100,8 @@ def _checked(name, owner, closure, findings):
         if most > 1 + 1e-6:  # rounding is nobody's fault
             findings.note("the material reflects more than it receives, so it is darkened", owner)
         lobes = tuple(scaled_lobe(lobe, 1 / most) for lobe in lobes)
-    return Material(name=name, lobes=lobes, emission=clean_colour(closure.emission, owner, findings))
+    held = closure.holdout if varies(closure.holdout) else cut(clean_colour(closure.holdout, owner, findings))
+    return Material(name=name, lobes=lobes, emission=clean_colour(closure.emission, owner, findings), holdout=held)
 
 
 def _clean_lobe(lobe, owner, findings):

@@ -1,18 +1,20 @@
 """Everything that stands in the scene: meshes and lights, each instance placed in the world."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import bpy
 import numpy as np
 
-from ...engine import GlanzError, Object, SceneError
+from ...engine import RAY_KINDS, GlanzError, Object, SceneError
 from .findings import IGNORED, MISSING
 from .kept import Kept
 from .light import Emissions, export_light
-from .material import export_material, is_volume_only
+from .material import export_material, held_out, is_volume_only
 from .mesh import export_mesh, mesh_of
 from .motion import STILL
 from .object_values import object_values
+from .sights import sights_of
 
 POLL_EVERY = 256
 """Instances between two questions whether to stop."""
@@ -28,18 +30,26 @@ _NOT_RENDERED = {
 }
 _OF_OBJECTS = ("value", "world_from_object", "object_from_world", "position", "camera")
 """What materials ask of objects, not of their meshes."""
-_RAY_VISIBILITY = ("visible_camera", "visible_diffuse", "visible_glossy", "visible_transmission", "visible_shadow")
 
 
 @dataclass(frozen=True)
 class _Placed:
-    """An instance before its matrix is checked: who it is, what it has, the names of the values it is asked for, and more of `Object`."""
+    """An instance before its matrix is checked: who it is, what it has, the names of the values it is asked for, and more of `Object`.
+
+    One that is held out is two: what the camera sees is `held`.
+    """
 
     name: str
     mesh: object
     materials: tuple
     asked: tuple
     more: dict
+    hidden_from: tuple = ()
+
+    @cached_property
+    def held(self):
+        """What the camera sees of it where it is held out."""
+        return replace(self, materials=tuple(map(held_out, self.materials)), hidden_from=RAY_KINDS[1:])
 
 
 def export_objects(
@@ -77,10 +87,12 @@ def export_objects(
                     lights.append(light)
                     tracks.start_light(instance, matrix, light)
             elif instance.show_self and (part := parts.of(ob)):
-                placed.append(part)
-                matrices.append(matrix)
-                values.append(object_values(instance, part.asked, depsgraph))
-                identities.append(tracks.start(instance, matrix, part.mesh))
+                own, identity = object_values(instance, part.asked, depsgraph), tracks.start(instance, matrix, part.mesh)
+                for sight in sights_of(instance, part, depsgraph.view_layer_eval):
+                    placed.append(sight)
+                    matrices.append(matrix)
+                    values.append(own)
+                    identities.append(identity)
         except GlanzError:
             raise
         except Exception as error:
@@ -111,7 +123,15 @@ def _placed_objects(parts, matrices, values, findings):
             else:
                 findings.note("the transform is not finite, so it is left out", f"object '{part.name}'", IGNORED)
     return [
-        Object(name=part.name, mesh=part.mesh, world_from_object=matrix, materials=part.materials, values=own, **part.more)
+        Object(
+            name=part.name,
+            mesh=part.mesh,
+            world_from_object=matrix,
+            materials=part.materials,
+            values=own,
+            hidden_from=part.hidden_from,
+            **part.more,
+        )
         if is_visible
         else None
         for part, matrix, own, is_visible in zip(parts, matrices, values, visible, strict=True)
@@ -205,10 +225,8 @@ class _Parts:
 
     def _note_ignored(self, ob):
         name = f"object '{ob.name}'"
-        if not all(getattr(ob, flag) for flag in _RAY_VISIBILITY):
-            self._findings.note("ray visibility is ignored, everything sees the object", name, IGNORED)
-        if ob.is_holdout or ob.is_shadow_catcher:
-            self._findings.note("holdouts and shadow catchers are rendered as ordinary objects", name, IGNORED)
+        if ob.is_shadow_catcher:
+            self._findings.note("shadow catchers are rendered as ordinary objects", name, IGNORED)
         for system in ob.particle_systems:
             if system.settings.type == "HAIR" and system.settings.render_type == "PATH":
                 self._findings.note("hair particles are not rendered", name, IGNORED)

@@ -122,8 +122,7 @@ def _sheen(reader, node):
 
 
 def _holdout(reader, node):
-    reader.note("Holdout is rendered black, the picture is not transparent there")
-    return Closure()
+    return Closure(holdout=_WHITE)
 
 
 def _without_anisotropy(reader, node, identifier):

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from ...engine import Mist, World
+from ...engine import RAY_KINDS, Mist, World
 from .environment import as_picture
 from .findings import IGNORED
 from .material import clean_colour
@@ -15,10 +15,15 @@ def export_world(world, findings, bitmaps):
     """The engine's `World` for a world (evaluated), its images by `bitmaps`; none is black."""
     if world is None:
         return World()
-    mist = world.mist_settings
-    mist = Mist(start=mist.start, depth=mist.depth, falloff=mist.falloff.lower())
-    reach = world.light_settings.distance
-    return replace(_surroundings(world, findings, bitmaps), mist=mist, group=world.lightgroup, occlusion_distance=reach)
+    # Cycles stores them, where it is enabled.
+    own, mist = getattr(world, "cycles_visibility", None), world.mist_settings
+    return replace(
+        _surroundings(world, findings, bitmaps),
+        mist=Mist(start=mist.start, depth=mist.depth, falloff=mist.falloff.lower()),
+        group=world.lightgroup,
+        occlusion_distance=world.light_settings.distance,
+        hidden_from=tuple(kind for kind in RAY_KINDS[:-1] if not getattr(own, kind, True)),
+    )
 
 
 def _surroundings(world, findings, bitmaps):

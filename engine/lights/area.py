@@ -25,6 +25,7 @@ class AreaLight:
     spread            full angle [rad] in (0, pi] into which it shines; below pi, radiance falls with the angle as
                       behind a grid: max(tan a - tan theta, 0) / (tan a - a), a = spread / 2, so the flux stays
     is_visible        camera rays see the shape
+    hidden_from       kinds of scattered rays, of `RAY_KINDS`, that it gives no light to
     shade             the `Shade` that its light passes; None: it shines as above
     group             the light group that it belongs to; empty: none
     """
@@ -42,6 +43,7 @@ class AreaLight:
     is_visible: bool = False
     shade: Shade | None = None
     group: str = ""
+    hidden_from: tuple = ()
 
     def _axes(self):
         matrix = np.asarray(self.world_from_light, np.float64)

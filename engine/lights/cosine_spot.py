@@ -23,6 +23,7 @@ class CosineSpotLight:
     radius            of the bulb [m]; 0: a point
     soft_falloff      the bulb is a disk facing whatever it lights (Blender's default); else a sphere
     is_visible        camera rays see the bulb
+    hidden_from       kinds of scattered rays, of `RAY_KINDS`, that it gives no light to
     shade             the `Shade` that its light passes; None: it shines as above
     group             the light group that it belongs to; empty: none
     """
@@ -39,6 +40,7 @@ class CosineSpotLight:
     is_visible: bool = False
     shade: Shade | None = None
     group: str = ""
+    hidden_from: tuple = ()
 
     @property
     def position(self):

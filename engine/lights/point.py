@@ -17,6 +17,7 @@ class PointLight:
     radius        of the bulb [m]; 0: a point
     soft_falloff  the bulb is a disk that turns to face whatever it lights (Blender's default); else a sphere
     is_visible    camera rays see the bulb (Blender's lights are invisible to the camera by default)
+    hidden_from   kinds of scattered rays, of `RAY_KINDS`, that it gives no light to
     shade         the `Shade` that its light passes; None: it shines as above
     group         the light group that it belongs to; empty: none
     """
@@ -32,6 +33,7 @@ class PointLight:
     is_visible: bool = False
     shade: Shade | None = None
     group: str = ""
+    hidden_from: tuple = ()
 
     def row(self, frame):
         return bulbs.row(frame, self)

@@ -24,6 +24,7 @@ class SunLight:
     irradiance  on a surface that faces it [W m^-2], (r, g, b)
     angle       angular diameter [rad], in [0, pi]; 0: a direction
     is_visible  camera rays see the disk
+    hidden_from kinds of scattered rays, of `RAY_KINDS`, that it gives no light to
     shade       the `Shade` that its light passes; None: it shines as above
     group       the light group that it belongs to; empty: none
 
@@ -41,6 +42,7 @@ class SunLight:
     is_visible: bool = False
     shade: Shade | None = None
     group: str = ""
+    hidden_from: tuple = ()
 
     def row(self, frame):
         half = 0.5 * self.angle

@@ -39,6 +39,11 @@ def may_emit(material):
     return is_texture(material.emission) or any(material.emission)
 
 
+def may_hold_out(material):
+    """Whether the camera sees anything of a material as clear; textures may be anything."""
+    return is_texture(material.holdout) or any(material.holdout)
+
+
 def is_number(value, field):
     """Whether the parameter `field` of a lobe or material is a number: it takes the luminance of a texture."""
     return not isinstance(type(value).__dataclass_fields__[field].default, tuple)
@@ -76,7 +81,7 @@ def coordinates_of(texture):
 
 
 def material_textures(material):
-    """All textures of a material's lobes, emission, alpha, relief and passes of its own, without inner ones."""
+    """All textures of a material's lobes, emission, alpha, holdout, relief and passes of its own, without inner ones."""
     own = [value for _, value in material.aovs if is_texture(value)]
     return [*(t for value in (*material.lobes, material) for t in textures_of(value).values()), *material.relief, *own]
 

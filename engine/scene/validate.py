@@ -15,6 +15,7 @@ from .graphs import inputs_of, is_texture, with_inner
 from .medium import Medium
 from .shade import Shade
 from .textured import coordinates_of, material_textures, plain, textures_of
+from .visibility import hidden_from
 
 
 def validate(scene, settings):
@@ -93,6 +94,8 @@ def _check_material(material):
         raise SceneError(f"material '{material.name}': ambient is a texture, allowed: three finite numbers from 0 on")
     for texture in material_textures(material):
         _check_texture(texture, f"material '{material.name}'")
+    if not is_texture(held := material.holdout) and not (_is_colour(held) and max(held) <= 1):
+        raise SceneError(f"material '{material.name}': holdout is {held}, allowed: three numbers from 0 to 1")
     for name in ("emission", "ambient"):
         if not (is_texture(value := getattr(material, name)) or _is_colour(value)):
             raise SceneError(f"material '{material.name}': {name} is {value}, allowed: three finite numbers from 0 on")
@@ -128,10 +131,11 @@ def _check_texture(texture, owner):
 def _check_light(light, warnings):
     if type(light) not in LIGHTS.values():
         raise SceneError(f"{type(light).__name__} is not a light")
-    numbers = [getattr(light, f.name) for f in dataclasses.fields(light) if f.name not in ("name", "shade", "group")]
+    numbers = [getattr(light, f.name) for f in dataclasses.fields(light) if f.name not in ("name", "shade", "group", "hidden_from")]
     if not all(np.isfinite(np.asarray(value, np.float64)).all() for value in numbers):
         warnings.append(f"light '{light.name}' is left out: one of its values is not finite")
         return False
+    hidden_from(light.hidden_from, f"light '{light.name}'")
     if light.shade is not None:
         _check_shade(light.shade, f"light '{light.name}'", warnings)
     # First what power() computes with.

@@ -17,6 +17,7 @@ from .medium import Medium
 from .mist import Mist
 from .motion import no_motion, settle
 from .textured import attributes_of
+from .visibility import hidden_from
 
 
 def _array(owner, name, dtype, shape):
@@ -185,7 +186,9 @@ class Material:
     emission  radiance leaving both sides [W m^-2 sr^-1], linear Rec. 709
     alpha     the share of the surface that is there, in [0, 1]; where it is not, light goes straight on. It cuts out what the
               lobes make, not what is emitted. A texture beyond [0, 1] is cut off
-    Emission, alpha and any parameter of a lobe may be a texture.
+    Emission, alpha, holdout and any parameter of a lobe may be a texture.
+    holdout   the share of light, in [0, 1], for which the camera sees nothing there: black, and clear. No other ray knows of it, and alpha
+              does not cut it out
     ambient   k_a of the lecture's illumination model, the share of each light that arrives everywhere; no other model knows it
     relief    textures that give normals in world space, such as `NormalMap` and `BumpMap`; each bends what the one before has left
     aovs      pairs (name, value) of what passes are to show of the surface: numbers, colours, textures
@@ -202,12 +205,13 @@ class Material:
     relief: tuple = ()
     index: float = 0.0
     aovs: tuple = ()
+    holdout: tuple = (0.0, 0.0, 0.0)
 
     def __post_init__(self):
         object.__setattr__(self, "lobes", tuple(self.lobes))
         object.__setattr__(self, "relief", tuple(self.relief))
         object.__setattr__(self, "aovs", tuple(map(tuple, self.aovs)))
-        for name in ("emission", "ambient"):
+        for name in ("emission", "ambient", "holdout"):
             if not is_texture(getattr(self, name)):
                 object.__setattr__(self, name, tuple(float(c) for c in getattr(self, name)))
 
@@ -229,6 +233,7 @@ class Object:
                        ("random", (x, x, x, 1)); what is not among them is 0
     asset              the name of what it is a part of; empty: its own
     group              the light group that what it emits belongs to; empty: none
+    hidden_from        the kinds of rays that do not see it, of `scene.visibility.RAY_KINDS`
     Raises SceneError for values of another form.
     """
 
@@ -240,8 +245,10 @@ class Object:
     values: tuple = ()
     asset: str = ""
     group: str = ""
+    hidden_from: tuple = ()
 
     def __post_init__(self):
+        object.__setattr__(self, "hidden_from", hidden_from(self.hidden_from, f"object '{self.name}'"))
         settle(self, "object", "world_from_object")
         _array(self, "world_from_object", np.float64, (4, 4))
         object.__setattr__(self, "materials", tuple(self.materials))
@@ -273,6 +280,7 @@ class World:
     mist         a `Mist`, for the pass of that name
     group        the light group that it belongs to; empty: none
     occlusion_distance  how far away things may be that hide others from their surroundings, for ambient occlusion [m]
+    hidden_from  the kinds of rays that do not see it, of `scene.visibility.RAY_KINDS`; it is black to them
     """
 
     name: str = "World"
@@ -281,8 +289,10 @@ class World:
     mist: Mist = field(default_factory=Mist)
     group: str = ""
     occlusion_distance: float = 10.0
+    hidden_from: tuple = ()
 
     def __post_init__(self):
+        object.__setattr__(self, "hidden_from", hidden_from(self.hidden_from, f"world '{self.name}'"))
         if not is_texture(self.radiance):
             object.__setattr__(self, "radiance", tuple(float(c) for c in self.radiance))
 

@@ -33,6 +33,7 @@ def arriving(plan, rays, surface, reflection, wi, distance, cos, L, light, film)
 
     Only where cos (N,), that of `reflection.cosine`, is above 0. `light` is where it comes from, see `Film.add`.
     """
+    L = plan.lit_lobes(plan, surface, reflection, wi, L, light)
     # Not "L > 0": what is not a number goes to the film, which counts it.
     candidate = ~(np.maximum(np.maximum(L[0], L[1]), L[2]) <= 0) & (cos > 0)
     lanes, share = plan.unblocked(plan, *plan.shadow_rays(plan, rays, surface, reflection, wi, distance), candidate)
@@ -63,6 +64,11 @@ def shadow_rays_on_either_side(plan, rays, surface, reflection, wi, distance):
 def unsplit(plan, rays, surface, reflection, wi):
     """The rays that have met `surface`, for light that it reflects from wi (3, N): nobody asks by which lobes."""
     return rays
+
+
+def all_lobes(plan, surface, reflection, wi, L, light):
+    """What is left of the light L (3, N) that `surface` reflects from lights: all of it, as none is hidden from any lobe."""
+    return L
 
 
 def any_side(surface):

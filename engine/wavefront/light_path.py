@@ -18,6 +18,15 @@ CARRIED = (("scattered", _none), ("bounces", _no_bounces))
 """What the last lobe was, bits of _KINDS (N,); and how often of each of _COUNTS (4, N)."""
 
 
+_KIND = np.array([0, *(3 if bits & 16 else 1 if bits & 1 else 2 for bits in range(1, 32))], np.uint8)
+"""The place in `scene.visibility.RAY_KINDS` for all bits of _KINDS; what has passed a surface is of the kind of those, however."""
+
+
+def kind_of(carried):
+    """Of which kind rays are, (N,) places in `RAY_KINDS`."""
+    return _KIND.take(carried.scattered)
+
+
 def is_past(output):
     """Whether it is something that paths carry along."""
     return output in _KINDS or output in _COUNTS

@@ -154,7 +154,7 @@ def _transmittance(plan, rays, o, d, limit):
     share = np.ones_like(o)
     lanes, at, towards, rest = np.arange(limit.size), o, d, limit
     for _ in range(plan.settings.max_transparent + 1):
-        hits = plan.closest(plan, rays.carried, at, towards, rest)
+        hits = plan.closest_to_shadows(plan, rays.carried, at, towards, rest)
         share[:, lanes] *= plan.left(plan, rays, hits.t)
         met = np.nonzero(hits.prim >= 0)[0]
         material = materials.take(hits.prim.take(met))

@@ -18,7 +18,7 @@ DIFFUSE, GLOSSY, TRANSMITTED = range(3)
 
 def split_light(plan, rays, surface, reflection, wi):
     """The rays that have met `surface`, for light that it reflects from wi (3, N): they know by which lobes."""
-    return rays if rays.depth else _with(rays, _shares(surface, reflection, wi))
+    return rays if rays.depth else _with(rays, shares(surface, reflection, wi))
 
 
 def not_split(plan, rays):
@@ -30,7 +30,7 @@ def split_by_lobes(plan, rays, surface, reflection, scattered):
     """The stage that has scattered rays know by which lobes they have left the first surface."""
     if rays.depth:
         return
-    split = _shares(surface, reflection, scattered.d)
+    split = shares(surface, reflection, scattered.d)
     # Mirrors and smooth boundaries share their directions with nothing.
     singular = np.nonzero(reflection.chosen_lobe(rays.slot.size, plan.choose_lobe(plan, rays)) >= len(reflection.rough))[0]
     split[DIFFUSE, :, singular] = 0
@@ -65,15 +65,16 @@ def is_of_world(plan, light):
     return np.equal(light, BACKGROUND)
 
 
-def _shares(surface, reflection, wi):
+def shares(surface, reflection, wi):
+    """The shares (2, 3, N) of the light that `surface` reflects from wi (3, N) which diffuse and glossy lobes send on."""
     values = [np.broadcast_to(kind.value(surface.ns, surface.wo, wi), wi.shape) for kind in reflection.by_kind()]
     whole = sum(values)
     # Where nothing is reflected it does not matter; but ambient light, which is not, counts as diffuse.
-    shares = np.zeros((2, *wi.shape), np.float32)
-    shares[DIFFUSE] = 1
-    for share, value in zip(shares, values):
+    found = np.zeros((2, *wi.shape), np.float32)
+    found[DIFFUSE] = 1
+    for share, value in zip(found, values):
         np.divide(value, whole, out=share, where=whole != 0)
-    return shares
+    return found
 
 
 def _with(rays, split):

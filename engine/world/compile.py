@@ -12,6 +12,7 @@ from .attributes import compile_attributes
 from .by_cosine import ByCosine, tabulated
 from .emitters import Emitters
 from .frame import Frame
+from .holdouts import Holdouts
 from .lights import Lights
 from .materials import Materials
 from .media import Bodies, Media
@@ -19,6 +20,7 @@ from .movers import Movers, Moving
 from .moving_lamps import MovingLamps
 from .passing import Passing
 from .placement import place
+from .sights import Sight, Sights
 from .sky import environment_of
 from .texturing import EVEN, TexturedGlow
 from .touching import moved_apart
@@ -72,6 +74,8 @@ class CompiledWorld:
     background  (3, 1) float32 [W m^-2 sr^-1]
     media       what is inside of bodies; None where nobody asks
     passing     what passes surfaces straight on; None where nobody asks
+    sights      what rays of each kind see; None where all see everything
+    holdouts    what the camera sees as clear; None where there is nothing
     """
 
     frame: Frame
@@ -85,6 +89,8 @@ class CompiledWorld:
     background: np.ndarray
     media: Media | None
     passing: Passing | None
+    sights: Sights | None
+    holdouts: Holdouts | None
     attributes: dict
     light_groups: dict
     glow: object
@@ -110,17 +116,19 @@ def compile_world(
     motion_steps=0,
     passing_of=None,
     disperses=False,
+    has_sights=False,
+    has_holdouts=False,
     before=None,
     asked=(),
 ):
     """`scene` (validated) as a `CompiledWorld`.
 
-    `bsdfs` are the lobes to make room for, `smooth` says that shading normals are wanted, `has_choice` that there may
-    be more than one light, `samples_lights` that shadow rays look for them, `has_media` that it matters what is inside of
-    bodies, `has_environment` that the world has a picture that gives light, `disperses` that indices depend on the
-    wavelength, and `passing_of` (None: nothing passes) makes the `Passing` of the materials. Deforming meshes take
-    `motion_steps` shapes, and without any all is as at the middle of the shutter. `before`, a world of the scene as it was, lends
-    the origin of its render space, which is else the camera, and its tree if no triangle is another. `asked`
+    `bsdfs` are the lobes to make room for, `smooth` says that shading normals are wanted, `has_choice` that there may be more than one
+    light, `samples_lights` that shadow rays look for them, `has_media` that it matters what is inside of bodies, `has_environment` that
+    the world has a picture that gives light, `disperses` that indices depend on the wavelength, `has_sights` that something is hidden
+    from some rays, `has_holdouts` that something is held out, and `passing_of` (None: nothing passes) makes the `Passing` of the
+    materials. Deforming meshes take `motion_steps` shapes, and without any all is as at the middle of the shutter. `before`, a world of
+    the scene as it was, lends the origin of its render space, which is else the camera, and its tree if no triangle is another. `asked`
     are what all meshes and objects have to bring, keys as in `attributes`. Raises SceneError where
     the geometry does not fit into memory.
     """
@@ -167,6 +175,9 @@ def compile_world(
         at_rest = vertices, indices[:, : triangles.first_moving]
         accel = before.accel if before and before.accel.is_of(*at_rest) else Accel(*at_rest)
         movers = _movers(moving, parts, frame, vertices, indices, keep) if moving else None
+        own = owner[keep][: triangles.first_moving]
+        whole = Sight(accel, None, movers)
+        sights = Sights.of(scene, own, at_rest, whole, [i for i, _ in changing]) if has_sights else None
     except AccelError as error:
         raise SceneError(f"scene '{scene.name}': {error}") from error
     last = slice(triangles.first_emitter, triangles.first_moving)
@@ -204,6 +215,8 @@ def compile_world(
         background=np.array((0.0, 0.0, 0.0) if environment else scene.world.radiance, np.float32)[:, None],
         media=Media.of(bodies, row, material, owner[keep], frame.scale) if has_media else None,
         passing=passing,
+        sights=sights and sights.of_lights(scene, lights, emitters.objects),
+        holdouts=Holdouts.of(materials) if has_holdouts else None,
         attributes=attributes,
         light_groups=_light_groups(scene, lights, emitters),
         glow=glow,

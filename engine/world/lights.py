@@ -69,6 +69,7 @@ class Lights:
     choice       how one of them is chosen, see `light_choice`
     visible      the lamps that camera rays see, to be searched by `lamp_search`
     hittable     the lamps that scattered rays meet: all that have a size
+    hidden_from  the kinds of rays that each lamp is hidden from
     dark         the names of lights whose shades seem to leave nothing
     lamp_groups  the light groups of the lamps, in their order
     few_sharp    rays of a density below SHARP do not look for lamps, the first `lamps` of all lights
@@ -84,6 +85,7 @@ class Lights:
     lamps: int = 0
     dark: tuple = ()
     lamp_groups: tuple = ()
+    hidden_from: tuple = ()
 
     @classmethod
     def of(cls, lamps, environment, emitters, frame, radius, has_choice=True, are_sampled=True, glow=EVEN, camera=None):
@@ -125,6 +127,7 @@ class Lights:
             len(lamps),
             tuple(lamp.name for lamp, share in zip(lamps, shares) if not share.any()),
             tuple(lamp.group for lamp in lamps),
+            tuple(lamp.hidden_from for lamp in lamps),
         )
 
     def seen_from(self, camera):

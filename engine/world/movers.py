@@ -78,6 +78,7 @@ class Movers:
     reach  (O,) how far their triangles are from the origins of their paths at most
     trees  for each object, for each of its steps: (Accel, the number of its first triangle)
     bounds a tree of `Node`s around all of them
+    spheres around what each sweeps while the shutter is open: centres (3, O), radii (O,)
     """
 
     first: int
@@ -86,6 +87,7 @@ class Movers:
     reach: np.ndarray
     trees: tuple
     bounds: object
+    spheres: tuple
 
     @classmethod
     def of(cls, moving, frame, vertices, triangles, first):
@@ -113,7 +115,11 @@ class Movers:
         centres = np.stack([0.5 * (low + high) for low, high in sides], axis=1)
         swept = reach + np.array([0.5 * np.linalg.norm(high - low) for low, high in sides])
         bounds = Node.around(centres, swept, np.arange(len(paths)))
-        return cls(first, np.concatenate(owner), Poses.of(paths), reach, tuple(trees), bounds)
+        return cls(first, np.concatenate(owner), Poses.of(paths), reach, tuple(trees), bounds, (centres, swept))
+
+    def only(self, numbers):
+        """The same of which only the objects `numbers` (M,) are ever met; None without any."""
+        return replace(self, bounds=Node.around(*self.spheres, numbers)) if numbers.size else None
 
     def meet(self, hits, o, d, time):
         """`hits` of rays o, d (3, N) at `time` (N,), changed where a moving triangle is nearer."""

@@ -32,9 +32,7 @@ def test_numbers_of_names_are_finite_and_not_0():
 def strips(*widths, front=None):
     """One pixel that looks straight at strips side by side, named by their places, that fill it from the left; a sheet in front."""
     edges = np.cumsum((0, *widths)) * 2 - 1
-    things = [
-        h.thing(h.quad(((a + b) / 2, 0, 0), (b - a, 0, 0), (0, 2, 0), name=str(i))) for i, (a, b) in enumerate(pairwise(edges))
-    ]
+    things = [h.thing(h.quad(((a + b) / 2, 0, 0), (b - a, 0, 0), (0, 2, 0), name=str(i))) for i, (a, b) in enumerate(pairwise(edges))]
     sheet = [h.thing(h.quad((0, 0, 0.1), (2, 0, 0), (0, 2, 0), name="front"), front)] if front else []
     camera = PerspectiveCamera.look_at((0, 0, 100), (0, 0, 0), up=(0, 1, 0), fov=2 * math.atan(0.01))
     return h.scene([*things, *sheet], camera=camera)

@@ -109,7 +109,7 @@ def test_a_black_channel_has_no_light_of_its_own():
     np.testing.assert_allclose(parts["Diffuse Direct"], np.broadcast_to((1.0, 0.0, 0.0), (8, 8, 3)), rtol=1e-6)
 
 
-def test_smooth_glass_has_fresnels_shares():
+def test_smooth_glass_has_fresnelsshares():
     """Seen from above: 4 % of index 1.5 are reflected, and 96 % pass, bent together or not."""
     for ior, share in ((1.5, 0.04), (1 / 1.5, 0.04), (2.0, 1 / 9)):
         parts = parts_of(furnace(Dielectric(ior, transmittance=(0.5, 1.0, 1.0)), fov=1e-3), width=1, height=1)
@@ -131,7 +131,7 @@ def test_what_comes_by_one_surface_is_direct_and_what_comes_by_two_is_not():
 
 def test_the_sum_catches_parts_that_are_counted_twice(monkeypatch):
     """The mutant lets what is glossy be diffuse, too."""
-    monkeypatch.setattr(splitting, "_shares", lambda surface, reflection, wi: np.ones((2, *wi.shape), np.float32))
+    monkeypatch.setattr(splitting, "shares", lambda surface, reflection, wi: np.ones((2, *wi.shape), np.float32))
     with pytest.raises(AssertionError):
         assert_whole(parts_of(glassware(), max_depth=2))
 

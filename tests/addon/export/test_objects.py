@@ -189,11 +189,8 @@ def test_an_object_that_is_only_a_volume_does_not_block_the_view():
 
 def test_ignored_flags_are_named():
     ob = blender.add_plane()
-    ob.visible_shadow = False
-    ob.is_holdout = True
-    text = "\n".join(blender.export()[1])
-    assert "ray visibility is ignored, everything sees the object: object 'Plane'" in text
-    assert "holdouts and shadow catchers are rendered as ordinary objects: object 'Plane'" in text
+    ob.is_shadow_catcher = True
+    assert blender.export()[1] == ("shadow catchers are rendered as ordinary objects: object 'Plane'",)
 
 
 def test_a_material_override_replaces_all_materials():

@@ -74,10 +74,9 @@ def test_metal_has_the_colour_of_its_base_and_that_of_its_edge():
     assert lobe.reflectance.tint == pytest.approx((0.25, 0.5, 1))
 
 
-def test_holdout_is_black_and_named():
-    exported, (warning,) = _exported(blender.new_material("Hole", "ShaderNodeHoldout"))
-    assert exported.lobes == ()
-    assert warning.startswith("Holdout")
+def test_holdout_is_black_and_held_out():
+    exported, warnings = _exported(blender.new_material("Hole", "ShaderNodeHoldout"))
+    assert (exported.lobes, exported.holdout, warnings) == ((), (1.0, 1.0, 1.0), ())
 
 
 @pytest.mark.parametrize("kind", ["MICROFIBER", "ASHIKHMIN"])
