@@ -76,7 +76,7 @@ def held_out(material):
     """An engine `Material` as the camera sees it on objects that are held out: nothing is left but what passes straight on."""
     lobes = tuple(lobe for lobe in material.lobes if isinstance(lobe, Transparent))
     passed = reduce(added, (lobe.transmittance for lobe in lobes), BLACK)
-    return Material(name=material.name, lobes=lobes, holdout=inverted(passed))
+    return Material(name=material.name, lobes=lobes, holdout=inverted(passed), index=material.index)
 
 
 def is_volume_only(material):

@@ -13,7 +13,7 @@ from glanz.tests.parity import parity
 from glanz.tests.parity.test_clear_film import pictures
 
 TOLERANCE = 0.01
-SAMPLES = 300
+SAMPLES = 500
 
 
 def cards(*names):
