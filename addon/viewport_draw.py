@@ -67,7 +67,7 @@ class Viewport:
             self._session.look(None, None)
         if view:
             self._show(view.rectangle, depsgraph.scene)
-        self._tell(failure or self._session.status)
+        self._tell(failure or self._session.status, _ignored(space, context.region_data))
         if self._session.is_busy and not self._is_ticking:
             self._is_ticking = True
             bpy.app.timers.register(self._tick, first_interval=_TICK_SECONDS)
@@ -116,8 +116,8 @@ class Viewport:
         self._engine().unbind_display_space_shader()
         gpu.state.blend_set("NONE")
 
-    def _tell(self, status):
-        lines = (*self._notes, *self._session.warnings)
+    def _tell(self, status, ignored):
+        lines = (*ignored, *self._notes, *self._session.warnings)
         more = f" and {len(lines) - 1} more" if len(lines) > 1 else ""
         text = status, f"{lines[0]}{more}" if lines else ""
         if text != self._text:
@@ -138,6 +138,16 @@ def close_all():
     """End what all 3D views are at."""
     for viewport in tuple(_viewports):
         viewport.close()
+
+
+def _ignored(space, region_data):
+    """What a 3D view asks for and does not get, in lines."""
+    shading = space.shading
+    return (
+        *(("the clipping region is ignored",) if region_data.use_clip_planes else ()),
+        *(() if shading.use_scene_lights_render else ("Scene Lights is off, but they are rendered",)),
+        *(() if shading.use_scene_world_render else ("Scene World is off, but it is rendered",)),
+    )
 
 
 def _flagged(depsgraph):

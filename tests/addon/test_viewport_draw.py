@@ -131,6 +131,21 @@ def test_what_is_not_rendered_as_in_blender_is_told(views):
     assert "freestyle" in views.engine.told[1]
 
 
+def test_what_the_view_asks_for_and_does_not_get_is_told(views):
+    views.draw()
+    assert views.engine.told[1] == ""
+    shading = views.space.shading
+    shading.use_scene_world_render = False
+    try:
+        views.draw()
+        assert views.engine.told[1] == "Scene World is off, but it is rendered"
+        shading.use_scene_lights_render = False
+        views.draw()
+        assert views.engine.told[1] == "Scene Lights is off, but they are rendered and 1 more"
+    finally:
+        shading.use_scene_world_render = shading.use_scene_lights_render = True
+
+
 def test_a_fault_of_the_export_is_told_and_forgotten(views, monkeypatch, capsys):
     def broken(*args):
         raise ValueError("the moon is full")
