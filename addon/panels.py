@@ -64,6 +64,10 @@ class GLANZ_RENDER_PT_problem(GlanzPanel, bpy.types.Panel):
 class GLANZ_RENDER_PT_sampling(GlanzPanel, bpy.types.Panel):
     bl_label = "Sampling"
 
+    def draw_header_preset(self, context):
+        self.layout.emboss = "NONE"
+        self.layout.menu("GLANZ_MT_sampling_presets", text="", icon="PRESET")
+
     def draw(self, context):
         settings = context.scene.glanz
         column = self.column()
