@@ -171,7 +171,14 @@ def _may_look_different(depsgraph):
 
 
 def _cast(space, depsgraph):
-    """Who is there and to be seen in a 3D view, and the world."""
+    """Who is there and to be seen in a 3D view, the world, and which collections the camera sees otherwise."""
     seen = (i.object.name_full for i in depsgraph.object_instances if i.show_self and i.object.visible_in_viewport_get(space))
     world = depsgraph.scene_eval.world
-    return world and world.name_full, *seen
+    return world and world.name_full, *_masks(depsgraph.view_layer_eval.layer_collection), *seen
+
+
+def _masks(collection):
+    """Whether a layer collection, and each inside of it, is held out and only indirectly seen."""
+    yield collection.holdout, collection.indirect_only
+    for child in collection.children:
+        yield from _masks(child)

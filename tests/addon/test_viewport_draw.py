@@ -84,6 +84,23 @@ def plane():
     return bpy.data.objects["Plane"]
 
 
+def layer_collection():
+    """That of a collection with the plane in it."""
+    collection = bpy.data.collections.new("C")
+    bpy.context.scene.collection.children.link(collection)
+    collection.objects.link(plane())
+    bpy.context.view_layer.update()
+    return bpy.context.view_layer.layer_collection.children["C"]
+
+
+@pytest.mark.parametrize("flag", ["holdout", "indirect_only"])
+def test_collections_that_the_camera_sees_otherwise_are_exported(views, flag):
+    own = layer_collection()
+    views.exported_after(lambda: None)
+    assert views.exported_after(lambda: setattr(own, flag, True))
+    assert views.exported_after(lambda: setattr(plane(), "visible_camera", False))
+
+
 @pytest.mark.parametrize(
     ("is_export", "change"),
     [

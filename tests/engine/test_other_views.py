@@ -95,6 +95,16 @@ def test_the_comparison_notices_a_camera_that_stays_behind(monkeypatch, mutant):
         test_another_camera_on_a_compiled_world_sees_what_a_fresh_start_does("perspective")
 
 
+def test_a_film_may_become_transparent_and_opaque_again():
+    """Without another look at the scene: only the world disappears from sight."""
+    scene = scenes.everything()
+    plan, _ = prepare(scene, SETTINGS)
+    clear = plan.seen_from(scene.camera, h.replaced(SETTINGS, film_transparent=True))
+    assert picture(clear)[3].min() == 0
+    assert h.same_bits(picture(clear), picture(prepare(scene, clear.settings)[0]))
+    assert h.same_bits(picture(clear.seen_from(scene.camera, SETTINGS)), picture(plan))
+
+
 def test_cameras_that_see_nothing_are_refused():
     plan, _ = prepare(scenes.everything(), SETTINGS)
     with pytest.raises(SceneError, match="clip range"):
