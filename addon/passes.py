@@ -33,6 +33,7 @@ TABLE = {
     "UV": BlenderPass("VECTOR", "use_pass_uv"),
     "Object Index": BlenderPass("VALUE", "use_pass_object_index", "IndexOB"),
     "Material Index": BlenderPass("VALUE", "use_pass_material_index", "IndexMA"),
+    "Vector": BlenderPass("VECTOR", "use_pass_vector"),
     "Diffuse Direct": BlenderPass("COLOR", "use_pass_diffuse_direct", "DiffDir"),
     "Diffuse Indirect": BlenderPass("COLOR", "use_pass_diffuse_indirect", "DiffInd"),
     "Diffuse Color": BlenderPass("COLOR", "use_pass_diffuse_color", "DiffCol"),
@@ -60,9 +61,12 @@ def offered():
     return {key: (plugin, TABLE[key]) for key, plugin in registry.items() if key in TABLE}
 
 
-def chosen(view_layer):
-    """Keys of the passes that are switched on in `view_layer`; Combined always is."""
+def chosen(view_layer, scene):
+    """Keys of the passes that are switched on in a `view_layer` of `scene`; Combined always is."""
     of_table = (key for key, (_, row) in offered().items() if not row.flag or getattr(*switch(view_layer, row.flag), False))
+    if scene.render.use_motion_blur:
+        # As in Cycles: what is blurred is not blurred again.
+        of_table = (key for key in of_table if key != "Vector")
     return (*of_table, *(key for family in FAMILIES for key in family(view_layer)))
 
 
@@ -120,7 +124,7 @@ def aovs(keys):
 
 def register_passes(engine, scene, view_layer):
     """Tell Blender which passes `view_layer` will get, so that files and the compositor make room for them."""
-    for key in chosen(view_layer) if backend.engine() else ():
+    for key in chosen(view_layer, scene) if backend.engine() else ():
         plugin = backend.engine().PASSES[key]
         kind = TABLE[key].kind if key in TABLE else "VALUE" if len(plugin.channels) == 1 else "COLOR"
         engine.register_pass(scene, view_layer, name_of(key), len(plugin.channels), plugin.channels, kind)

@@ -47,7 +47,7 @@ def settings_of(scene, view_layer, **overrides):
         raise SceneError(f"scene '{scene.name}': this version of Glanz does not know its {', '.join(lost)}: choose anew")
     # A view layer may have samples of its own; 0 means the scene's.
     values["samples"] = view_layer.samples or values["samples"]
-    values["passes"] = passes.chosen(view_layer)
+    values["passes"] = passes.chosen(view_layer, scene)
     values |= overrides
     if render.use_border and "border" not in overrides:
         fractions = (render.border_min_x, render.border_max_x, render.border_min_y, render.border_max_y)

@@ -37,11 +37,19 @@ class Shutter:
     """The frames (K,), with fractions, at equal times while the shutter is open, K odd; `frame_set` (frame, fraction) goes to one.
 
     start  the frame that was before
+    blurs  whether the picture is; else passes alone show what moves
     """
 
     frames: tuple
     frame_set: object
     start: float
+    blurs: bool = True
+
+    @classmethod
+    def beside(cls, depsgraph, frame_set):
+        """The frames before and after that of a scene, for passes; None where Blender does not go to others."""
+        frame = depsgraph.scene_eval.frame_current + depsgraph.scene_eval.frame_subframe
+        return frame_set and cls((frame - 1, frame, frame + 1), frame_set, frame, blurs=False)
 
     @classmethod
     def of(cls, depsgraph, frame_set, findings):
@@ -108,9 +116,9 @@ def _is_box(render):
 class CameraTrack:
     """Where the camera of one view is; `export` makes the engine's camera of what Blender says of it now, in the middle first."""
 
-    def __init__(self, ob, export):
+    def __init__(self, ob, export, blurs=True):
         self.middle = export()
-        self._export, self._keys = export, keys_of(ob)
+        self._export, self._keys, self._blurs = export, keys_of(ob) if blurs else 3, blurs
         self._seen = {}
 
     def look(self, number):
@@ -119,13 +127,19 @@ class CameraTrack:
             self._seen[number] = self._export()
 
     def moved(self, shutter, findings):
-        """The camera with its motion."""
-        if not self._seen:
+        """The camera with its motion, if that blurs."""
+        if not (self._seen and self._blurs):
             return self.middle
         seen = [self._seen.get(number, self.middle) for number in range(len(shutter.frames))]
         if any((camera.lens, getattr(camera, "window", ())) != (seen[0].lens, getattr(seen[0], "window", ())) for camera in seen):
             findings.note("the lens changes while the shutter is open, it is that of the middle", f"camera '{self.middle.name}'")
         return replace(self.middle, motion=shutter.picked([camera.world_from_camera for camera in seen], self._keys))
+
+
+    def beside(self):
+        """Where the camera is one frame before and one after, (2, 4, 4), for passes; (0, 4, 4) where nobody asks."""
+        looks = () if self._blurs else self._seen.values()
+        return np.array([camera.world_from_camera for camera in looks]).reshape(-1, 4, 4)
 
 
 class Still:
@@ -224,6 +238,21 @@ class Tracks:
         return (*ids, self._seen[ids])
 
 
+class Beside(Tracks):
+    """Where objects are one frame before and one after, for passes: the picture stays as it is."""
+
+    def start_light(self, instance, matrix, light):
+        """Nobody asks."""
+
+    def _moved(self, instance, o):
+        before, middle, after = instance.matrices
+        mesh = instance.shapes.beside() if instance.shapes else o.mesh
+        is_known = before is not None and after is not None and np.isfinite((before, after)).all()
+        if not is_known or ((before == middle) & (after == middle)).all():
+            return replace(o, mesh=mesh)
+        return replace(o, mesh=mesh, beside=np.stack((before, after)))
+
+
 @dataclass(frozen=True)
 class _Instance:
     """The matrices of an instance, None where it is not there; how many `keys` it has; its `_Shapes`, if it may have any."""
@@ -257,6 +286,14 @@ class _Shapes:
         self._vertices[number] = now
         if self._mesh.is_smooth and not is_flat(data):
             self._normals[number] = corner_normals(data)
+
+    def beside(self):
+        """The mesh with the shapes of the frames beside; as it was where it does not change or is another."""
+        if self.is_other or all(shape is self._mesh.vertices for shape in self._vertices):
+            return self._mesh
+        if "beside" not in self._changed:
+            self._changed["beside"] = replace(self._mesh, beside=np.stack(self._vertices[::2]))
+        return self._changed["beside"]
 
     def changed(self, count, picked):
         """The mesh with `count` of the shapes, the same value each time; as it was where it does not change or is another."""

@@ -8,7 +8,7 @@ from ..passes import aovs, attributes
 from .camera import export_camera
 from .findings import IGNORED, Findings
 from .kept import Kept
-from .motion import STILL, CameraTrack, Shutter, Tracks
+from .motion import STILL, Beside, CameraTrack, Shutter, Tracks
 from .objects import export_objects
 from .world import export_world
 
@@ -26,20 +26,25 @@ def export_views(depsgraph, settings, views, check=lambda: None, frame_set=None,
     views      functions that say (evaluated camera object, matrix, horizontal shift), see `export_camera`, as Blender has them at
                the time of the call; None: the scene's own camera. The scenes differ in nothing but their cameras
     check      called now and then; may raise to stop the export
-    frame_set  goes to (frame, fraction of a frame), for motion blur; the frame is restored. None: nothing is blurred
+    frame_set  goes to (frame, fraction of a frame), for motion blur and vectors; the frame is restored. None: nothing moves
     findings   `Findings` that keep the warnings as notes, too
     Raises SceneError naming the object for which no picture is possible.
     """
     findings = findings or Findings()
     shutter = Shutter.of(depsgraph, frame_set, findings)
+    if shutter is None and "Vector" in settings.passes:
+        shutter = Shutter.beside(depsgraph, frame_set)
+    blurs = shutter is None or shutter.blurs
     with shutter or nullcontext():
         scene = depsgraph.scene_eval
         # The cameras first: where there is none, no one should wait for the meshes.
-        cameras = [_camera_track(depsgraph, settings, view) for view in views]
+        cameras = [_camera_track(depsgraph, settings, view, blurs) for view in views]
         _note_ignored(scene, findings)
-        tracks = Tracks(shutter, depsgraph, cameras, findings, check) if shutter else STILL
+        tracks = (Tracks if blurs else Beside)(shutter, depsgraph, cameras, findings, check) if shutter else STILL
         contents = _contents(depsgraph, findings, Kept(), check, tracks, asked=attributes(settings.passes), aovs=aovs(settings.passes))
-    scenes = tuple(Scene(name=scene.name, camera=camera.moved(shutter, findings), **contents) for camera in cameras)
+    scenes = tuple(
+        Scene(name=scene.name, camera=camera.moved(shutter, findings), camera_beside=camera.beside(), **contents) for camera in cameras
+    )
     return scenes, findings.lines()
 
 
@@ -80,14 +85,14 @@ def _contents(depsgraph, findings, kept, check=lambda: None, tracks=STILL, is_sh
     return {"objects": objects, "lights": lights, "world": world}
 
 
-def _camera_track(depsgraph, settings, view):
+def _camera_track(depsgraph, settings, view, blurs):
     scene = depsgraph.scene_eval
 
     def export():
         ob, matrix, shift_x = view() if view else (None, None, None)
         return export_camera(ob or scene.camera, scene.render, settings.width, settings.height, matrix, shift_x)
 
-    return CameraTrack(scene.camera, export)
+    return CameraTrack(scene.camera, export, blurs)
 
 
 def _is_spherical(camera):

@@ -28,6 +28,13 @@ def _array(owner, name, dtype, shape):
     object.__setattr__(owner, name, value)
 
 
+def _two_matrices(owner, name):
+    _array(owner, name, np.float64, (None, 4, 4))
+    count = len(getattr(owner, name))
+    if count not in (0, 2):
+        raise SceneError(f"{type(owner).__name__.lower()} '{owner.name}': {name} are {count} matrices, allowed: 2 or none")
+
+
 def _check_indices(mesh, name, count):
     indices = getattr(mesh, name)
     if indices.size and not 0 <= indices.min() <= indices.max() < count:
@@ -71,6 +78,7 @@ class Mesh:
     shapes            (K, 3, V) the vertices at equally spaced times, the first and the last included, while the shutter is open;
                       none (0, 3, 0): the mesh keeps its shape. `vertices` are then set to the middle
     shape_normals     (K, 3, K_n) the normals at the same times; none (0, 3, 0): they stay
+    beside            (2, 3, V) the vertices one frame before and one after, for passes; none (0, 3, 0): they are the same
     Raises SceneError where shapes or indices do not fit.
     """
 
@@ -87,6 +95,7 @@ class Mesh:
     attributes: tuple = ()
     shapes: np.ndarray = field(default_factory=lambda: np.zeros((0, 3, 0)))
     shape_normals: np.ndarray = field(default_factory=lambda: np.zeros((0, 3, 0)))
+    beside: np.ndarray = field(default_factory=lambda: np.zeros((0, 3, 0)))
 
     def __post_init__(self):
         self._settle_shapes()
@@ -96,6 +105,10 @@ class Mesh:
         _array(self, "normals", np.float32, (3, None))
         _array(self, "normal_indices", np.int32, (3, None))
         _array(self, "material_indices", np.int32, (None,))
+        _array(self, "beside", np.float32, (None, 3, None))
+        expected = (2, 3, self.vertices.shape[1])
+        if self.beside.shape not in ((0, 3, 0), expected):
+            raise SceneError(f"mesh '{self.name}': beside has shape {self.beside.shape}, expected {expected}, or none")
         object.__setattr__(self, "uv_layers", tuple(self.uv_layers))
         _array(self, "uvs", np.float32, (len(self.uv_layers), 2, None))
         _array(self, "uv_indices", np.int32, (3, None))
@@ -234,6 +247,7 @@ class Object:
     asset              the name of what it is a part of; empty: its own
     group              the light group that what it emits belongs to; empty: none
     hidden_from        the kinds of rays that do not see it, of `scene.visibility.RAY_KINDS`
+    beside             (2, 4, 4) world_from_object one frame before and one after, for passes; none (0, 4, 4): it stands still
     Raises SceneError for values of another form.
     """
 
@@ -246,12 +260,14 @@ class Object:
     asset: str = ""
     group: str = ""
     hidden_from: tuple = ()
+    beside: np.ndarray = field(default_factory=no_motion)
 
     def __post_init__(self):
         object.__setattr__(self, "hidden_from", hidden_from(self.hidden_from, f"object '{self.name}'"))
         settle(self, "object", "world_from_object")
         _array(self, "world_from_object", np.float64, (4, 4))
         object.__setattr__(self, "materials", tuple(self.materials))
+        _two_matrices(self, "beside")
         try:
             object.__setattr__(self, "values", tuple((str(name), tuple(map(float, four))) for name, four in self.values))
         except (TypeError, ValueError):
@@ -309,6 +325,7 @@ class Scene:
     camera   a camera value (`PerspectiveCamera`, `OrthographicCamera`, `PanoramaCamera`)
     objects  `Object` values
     lights   light values (`PointLight`, `SpotLight`, `CosineSpotLight`, `SunLight`, `AreaLight`)
+    camera_beside  (2, 4, 4) where the camera is one frame before and one after, for passes; none (0, 4, 4): it stands still
     """
 
     camera: object
@@ -316,7 +333,9 @@ class Scene:
     lights: tuple = ()
     world: World = World()
     name: str = "Scene"
+    camera_beside: np.ndarray = field(default_factory=no_motion)
 
     def __post_init__(self):
+        _two_matrices(self, "camera_beside")
         object.__setattr__(self, "objects", tuple(self.objects))
         object.__setattr__(self, "lights", tuple(self.lights))

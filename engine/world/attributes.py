@@ -7,7 +7,7 @@ import numpy as np
 from ..maths.murmur import id_of
 from ..maths.tangents import corner_tangents, flat_normals
 
-OF_OBJECTS = ("value", "world_from_object", "object_from_world", "name of object", "name of asset")
+OF_OBJECTS = ("value", "world_from_object", "object_from_world", "name of object", "name of asset", "shift")
 """The sources of attributes that are the same all over an object."""
 
 
@@ -66,6 +66,8 @@ def compile_attributes(parts, keep, material, wanted, objects, owner):
     tangent                (4,) the tangent of a uv layer in object space, and the side of the bitangent, see `maths.tangents`
     value                  (4,) of `Object.values`, or the location of the object
     world_from_object, object_from_world  (12,) the rows of the matrix
+    shift                                 (12,) what is added to world_from_object one frame "before" or "after"
+    change                                (3,) what is added to the vertices then, in object space
     name of object, name of asset         (1,) the number of the name, see `maths.murmur`
     """
     found, warnings = {}, []
@@ -98,12 +100,15 @@ def compile_attributes(parts, keep, material, wanted, objects, owner):
 
 
 _SIZES = {"value": 4, "name of object": 1, "name of asset": 1}
+_BESIDE = {"before": 0, "after": 1}
 _COMPONENTS = {"number": 1, "alpha": 1, "colour alpha": 1, "tangent": 4}
 
 
 def _of_objects(objects, source, name):
     if source == "value":
         rows = [dict(o.values).get(name, (*o.world_from_object[:3, 3], 1) if name == "location" else (0, 0, 0, 0)) for o in objects]
+    elif source == "shift":
+        rows = [(o.beside[_BESIDE[name]] - o.world_from_object)[:3].ravel() if len(o.beside) else np.zeros(12) for o in objects]
     elif source.startswith("name of"):
         rows = [(id_of((source.endswith("asset") and o.asset) or o.name),) for o in objects]
     else:
@@ -136,6 +141,8 @@ def _values(mesh, source, name):
         return generated(mesh), mesh.triangles
     if source == "object":
         return mesh.vertices, mesh.triangles
+    if source == "change":
+        return (mesh.beside[_BESIDE[name]] - mesh.vertices, mesh.triangles) if len(mesh.beside) else None
     if source == "parametric":
         return np.diag((1, 1, 0)), np.repeat(np.arange(3)[:, None], mesh.triangles.shape[1], axis=1)
     if source == "normal":

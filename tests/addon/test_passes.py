@@ -29,4 +29,4 @@ def test_what_is_chosen_is_what_is_registered():
     engine = Engine()
     passes.register_passes(engine, bpy.context.scene, layer)
     assert engine.registered == (("Combined", 4, "RGBA", "COLOR"), ("Normal", 3, "XYZ", "VECTOR"))
-    assert passes.chosen(layer) == ("Combined", "Normal")
+    assert passes.chosen(layer, bpy.context.scene) == ("Combined", "Normal")

@@ -27,7 +27,7 @@ def passes_of(scene, **changes):
 def test_a_pass_offers_the_interface(plugin):
     assert isinstance(plugin, Pass)
     assert PASSES[plugin.key] == plugin
-    assert plugin.channels in ("RGBA", "RGB", "X", "Z", "XYZ", "UVA", "rgba")
+    assert plugin.channels in ("RGBA", "RGB", "X", "Z", "XYZ", "UVA", "XYZW", "rgba")
     assert plugin.reduction in ("mean", "first", "sum", "ranks")
     assert plugin.records in ("", "first hit", "light", "first hit and light")
     assert not plugin.records or isinstance(plugin.background, float)
@@ -230,3 +230,23 @@ def test_ambient_occlusion_catches_directions_that_are_not_cosines(monkeypatch):
     monkeypatch.setattr(ambient_occlusion, "square_to_cosine_hemisphere", square_to_uniform_hemisphere)
     with pytest.raises(AssertionError):
         test_ambient_occlusion_is_that_of_a_ceiling(2.0, 0.25, 1.0)
+
+
+def test_vectors_are_pixels_from_frame_to_frame():
+    """A plane that came from the left and will go up, seen by a camera that will move right; far from the origin, too."""
+    for offset in (np.zeros(3), np.array((1e5, -2e5, 5e4))):
+        camera = PerspectiveCamera.look_at(offset + np.array((0, 0, 4)), offset, up=(0, 1, 0), fov=2 * math.atan(0.5))
+        at, view = h.affine(translation=offset), camera.world_from_camera
+        plane = h.thing(h.quad((0, 0, 0), (50, 0, 0), (0, 50, 0)), matrix=at)
+        plane = h.replaced(plane, beside=(h.affine(translation=(-0.25, 0, 0)) @ at, h.affine(translation=(0, 0.5, 0)) @ at))
+        scene = h.scene([plane], camera=camera, camera_beside=(view, h.affine(translation=(1, 0, 0)) @ view))
+        # Four metres wide at the plane, eight pixels.
+        found = passes_of(scene)["Vector"]
+        np.testing.assert_allclose(found, np.broadcast_to((-0.5, 0, 2, -1), (8, 8, 4)), atol=1e-5)
+    still = np.zeros((0, 4, 4))
+    assert not passes_of(h.replaced(scene, objects=[h.replaced(plane, beside=still)], camera_beside=still))["Vector"].any()
+
+
+def test_matrices_beside_are_two():
+    with pytest.raises(SceneError, match="object 'quad': beside are 3 matrices"):
+        h.replaced(h.thing(h.quad()), beside=np.zeros((3, 4, 4)))
