@@ -48,11 +48,20 @@ class Changes:
             with contextlib.suppress(RuntimeError, TypeError), warnings.catch_warnings(action="ignore"):
                 kind()
                 self.log.append(kind.__name__.removeprefix("do_"))
-                if kind.__name__ != "do_undo":
-                    self._remember(self.log[-1])
-        _see_to_camera()
+            if kind.__name__ != "do_undo":
+                self._remember(kind.__name__)
+        if bpy.context.scene.camera is None:
+            self.new_camera()
+
+    def new_camera(self):
+        """Another camera in the place of the present one, if any: Blender renders nothing without one."""
+        if bpy.context.scene.camera is not None:
+            bpy.data.objects.remove(bpy.context.scene.camera)
+        _add_camera()
+        self._remember("new camera")
 
     def _remember(self, name):
+        # After every change: whatever Blender's undo does not know of it leaves dangling.
         with self._window():
             bpy.ops.ed.undo_push(message=name)
 
@@ -106,7 +115,10 @@ class Changes:
 
     def do_set_mode(self):
         node = self._pick(self._tree().nodes)
-        modes = [p for p in node.bl_rna.properties if p.type == "ENUM" and not p.is_readonly and not p.is_enum_flag]
+        # What all nodes have in common describes the node's class: to change that breaks Blender.
+        common = bpy.types.ShaderNode.bl_rna.properties
+        own = (p for p in node.bl_rna.properties if p.identifier not in common)
+        modes = [p for p in own if p.type == "ENUM" and not p.is_readonly and not p.is_enum_flag]
         mode = self._pick(modes)
         if mode:
             setattr(node, mode.identifier, self._pick(mode.enum_items.keys()))
@@ -274,7 +286,7 @@ def start():
         mesh.from_pydata(MESHES["Square"][0], [], MESHES["Square"][1])
         mesh.materials.append(material)
         _link("Square", mesh).location.z = n
-    _see_to_camera()
+    _add_camera()
 
 
 def _see_to_tree(block):
@@ -288,12 +300,9 @@ def _new_material():
     return material
 
 
-def _see_to_camera():
-    """Blender renders nothing without one."""
-    scene = bpy.context.scene
-    if scene.camera is None:
-        scene.camera = _link("Camera", bpy.data.cameras.new("Camera"))
-        scene.camera.location.z = 5
+def _add_camera():
+    bpy.context.scene.camera = _link("Camera", bpy.data.cameras.new("Camera"))
+    bpy.context.scene.camera.location.z = 5
 
 
 def _link(name, data):

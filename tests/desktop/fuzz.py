@@ -1,8 +1,7 @@
-"""Random changes by a user at work, with the viewport in each of its modes, and a render after every few of them."""
+"""Random changes by a user at work, with a rendered view in sight, and a render after every few of them."""
 
 import random
 
-import bpy
 import changes
 import harness as ui
 
@@ -15,6 +14,8 @@ MOST_GROWTH = 50.0
 def main():
     yield 0.2
     made = changes.Changes(random.Random(7), window=lambda: ui.context("VIEW_3D"))
+    # A rendered view follows every change.
+    ui.shading("RENDERED")
     before = None
     refused = 0
     # Cameras are refused by name; anything else that is printed as an error fails.
@@ -29,7 +30,7 @@ def main():
         if render.cancelled:
             # As for a camera whose parent is flat; it says so, and with another camera it goes on.
             refused += 1
-            bpy.data.objects.remove(bpy.context.scene.camera)
+            made.new_camera()
         if before is None and n >= BEFORE_MEASURING:
             before = ui.resident_megabytes()
     growth = ui.resident_megabytes() - before
