@@ -29,6 +29,8 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
 
     # What serves the 3D view, in engines that are for one.
     viewport = None
+    # What is kept from frame to frame, see `persistent`.
+    plans = None
 
     def __init__(self, *args, **kwargs):
         # Blender runs this twice for each engine, so there is nothing here.
@@ -72,13 +74,14 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
         stamp(self, metadata(scenes[0], settings, layer, requirements))
         self.update_stats("", "Preparing the scene")
         ends = doubling(settings) if depsgraph.scene_eval.glanz.progress == "FRAME" else ()
+        rendering = self._plans(depsgraph.scene_eval) or (lambda key, *asked: render(*asked))
         status, outlines = Status(self, settings.samples), Outlines(self, settings.height)
         for number, (view, scene) in enumerate(zip(views, scenes, strict=True)):
             where = ", ".join((*((layer,) if len(depsgraph.scene_eval.view_layers) > 1 else ()), *((view,) if view else ())))
             # The eyes differ in their camera, and in their noise, or it would seem to float in depth.
             settings = replace(settings, seed=settings.seed + bool(number))
             # Closing the generator joins its threads, so none is left when Blender goes on, whatever happens here.
-            with closing(render(scene, settings, ends)) as progress:
+            with closing(rendering((layer, view), scene, settings, ends)) as progress:
                 for step in progress:
                     warnings.show(step.warnings)
                     for line in step.warnings:
@@ -94,6 +97,16 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
         outlines.show(())
         self._keep(depsgraph, requirements, findings)
         warnings.close()
+
+    def _plans(self, scene):
+        """How to render what may be like a frame before, where the scene asks for persistent data: Blender then keeps this engine."""
+        if not scene.render.use_persistent_data:
+            self.plans = None
+            return None
+        from .persistent import Plans
+
+        self.plans = self.plans or Plans()
+        return self.plans.render
 
     @staticmethod
     def _keep(depsgraph, requirements, findings):

@@ -1,0 +1,71 @@
+"""Persistent data: what frames before were compiled to, for those that are the same but for their camera.
+
+Each frame is exported anew, and its values are compared. So nothing that changes is overlooked, whatever Blender tells of it; to
+compile is what takes the time.
+"""
+
+from dataclasses import fields, is_dataclass, replace
+
+import numpy as np
+
+from ..engine import Progress, prepare, render_plan
+
+
+class Plans:
+    """The last plan of each view layer and view, by keys of any kind."""
+
+    def __init__(self):
+        self._known = {}
+
+    def render(self, key, scene, settings, ends=()):
+        """As the engine's `render`; nothing is compiled where `scene` differs from the last with this `key` in its camera alone."""
+        plan = self._known.get(key)
+        if plan and _film_aside(plan.settings) == _film_aside(settings) and is_same(_camera_aside(plan.scene), _camera_aside(scene)):
+            yield Progress(0.0)
+            plan = plan.seen_from(scene.camera, settings)
+            # Far from where the first camera was, single precision asks for a render space of its own.
+            plan = plan if plan.is_exact() else prepare(scene, settings)[0]
+        else:
+            # Not two at once in memory.
+            plan = self._known[key] = None
+            yield Progress(0.0)
+            plan, warnings = prepare(scene, settings)
+            yield Progress(0.0, warnings=warnings)
+        self._known[key] = plan
+        yield from render_plan(plan, ends)
+
+
+def _film_aside(settings):
+    return replace(settings, seed=0)
+
+
+def _camera_aside(scene):
+    return [getattr(scene, field.name) for field in fields(scene) if field.name != "camera"]
+
+
+def is_same(a, b):
+    """Whether two values of the engine are the same, bit by bit; what it does not know how to compare is not, unless it is one thing."""
+    todo, seen = [(a, b)], set()
+    while todo:
+        a, b = todo.pop()
+        if a is b or (id(a), id(b)) in seen:
+            continue
+        if type(a) is not type(b):
+            return False
+        seen.add((id(a), id(b)))
+        if isinstance(a, np.ndarray):
+            if (a.dtype, a.shape) != (b.dtype, b.shape) or a.dtype.hasobject or a.tobytes() != b.tobytes():
+                return False
+        elif is_dataclass(a):
+            todo += [(getattr(a, field.name), getattr(b, field.name)) for field in fields(a)]
+        elif isinstance(a, dict):
+            if a.keys() != b.keys():
+                return False
+            todo += [(a[key], b[key]) for key in a]
+        elif isinstance(a, (tuple, list)):
+            if len(a) != len(b):
+                return False
+            todo += zip(a, b, strict=True)
+        elif not (isinstance(a, (int, float, str, bytes, frozenset, np.generic, type(None))) and a == b):
+            return False
+    return True

@@ -1,0 +1,153 @@
+"""Persistent data: frames that only differ in their camera are compiled once, and nothing that changes is overlooked."""
+
+from dataclasses import replace
+
+import bpy
+import numpy as np
+import pytest
+
+from glanz.addon import persistent
+from glanz.addon.persistent import is_same
+from glanz.engine import plan as plans
+from glanz.tests.addon import blender
+
+
+@pytest.fixture
+def compiled(monkeypatch):
+    """A scene of persistent data; the list of what was compiled."""
+    done = []
+    compile_world = plans.compile_world
+    monkeypatch.setattr(plans, "compile_world", lambda *args, **kwargs: done.append(args) or compile_world(*args, **kwargs))
+    blender.add_camera(width=16, height=16)
+    blender.set_world((1, 0.8, 0.6))
+    bpy.context.scene.render.use_persistent_data = True
+    return done
+
+
+def _frames(folder, count=2):
+    """The pictures of an animation."""
+    scene = bpy.context.scene
+    scene.frame_start, scene.frame_end = 1, count
+    image = scene.render.image_settings
+    if hasattr(image, "media_type"):
+        image.media_type = "MULTI_LAYER_IMAGE"
+    image.file_format, image.color_depth = "OPEN_EXR_MULTILAYER", "32"
+    scene.render.filepath = f"{folder}/####.exr"
+    bpy.ops.render.render(animation=True)
+    return [blender.read_exr(folder / f"{frame:04}.exr")["ViewLayer.Combined"] for frame in range(1, count + 1)]
+
+
+def _animate(owner, path, first, second):
+    for frame, value in ((1, first), (2, second)):
+        setattr(owner, path, value)
+        owner.keyframe_insert(path, frame=frame)
+
+
+def _shape(plane):
+    plane.shape_key_add(name="Basis")
+    key = plane.shape_key_add(name="Large")
+    for point in key.data:
+        point.co *= 3
+    _animate(key, "value", 0.0, 1.0)
+
+
+def _material(plane):
+    material = blender.new_material("Red", "ShaderNodeBsdfDiffuse", Color=(0.8, 0.1, 0.1, 1))
+    plane.data.materials.append(material)
+    colour = material.node_tree.nodes[0].inputs[0]
+    _animate(colour, "default_value", (0.8, 0.1, 0.1, 1), (0.1, 0.1, 0.8, 1))
+
+
+def _world(plane):
+    _animate(bpy.context.scene.world.node_tree.nodes[0].inputs["Strength"], "default_value", 1.0, 2.0)
+
+
+def _setting(name, first, second):
+    scene = bpy.context.scene
+    for frame, value in ((1, first), (2, second)):
+        setattr(scene.glanz, name, value)
+        scene.keyframe_insert(f"glanz.{name}", frame=frame)
+
+
+FREE = {
+    "nothing": lambda plane: None,
+    "the camera": lambda plane: _animate(bpy.context.scene.camera, "location", (0, 0, 5), (1, 0, 5)),
+    "the seed": lambda plane: _setting("seed", 0, 5),
+}
+"""Changes that need no new plan."""
+CHANGES = FREE | {
+    "a place": lambda plane: _animate(plane, "location", (0, 0, 0), (0.5, 0, 0)),
+    "a shape": _shape,
+    "a material": _material,
+    "the world": _world,
+    "what is rendered": lambda plane: _animate(plane, "hide_render", False, True),
+    "the bounces": lambda plane: _setting("max_depth", 0, 3),
+}
+
+
+@pytest.mark.parametrize("change", CHANGES)
+def test_frames_are_those_without_persistent_data(change, compiled, tmp_path):
+    """To the bit, but for a camera that moves: there positions are rounded otherwise."""
+    plane = blender.add_plane()
+    blender.add_tetrahedron()
+    CHANGES[change](plane)
+    kept = _frames(tmp_path)
+    assert len(compiled) == (1 if change in FREE else 2)
+    bpy.context.scene.render.use_persistent_data = False
+    fresh = _frames(tmp_path)
+    assert len(compiled) == (3 if change in FREE else 4)
+    if change == "the camera":
+        assert (np.abs(kept[1] - fresh[1]) < 1e-3).mean() > 0.98
+    else:
+        np.testing.assert_array_equal(kept, fresh)
+    assert (kept[0] != kept[1]).any() == (change != "nothing")
+
+
+def test_a_change_that_is_overlooked_would_be_seen_here(compiled, tmp_path, monkeypatch):
+    """The mutant takes everything for the same."""
+    monkeypatch.setattr(persistent, "is_same", lambda a, b: True)
+    blender.add_plane()
+    _world(None)
+    first, second = _frames(tmp_path)
+    np.testing.assert_array_equal(first, second)
+
+
+def test_what_was_edited_since_the_last_picture_is_seen(compiled, tmp_path):
+    plane = blender.add_plane(size=20)
+    material = blender.new_material("Lamp", "ShaderNodeEmission", Color=(1, 0, 0, 1), Strength=1)
+    plane.data.materials.append(material)
+    pictures = []
+    for colour in ((1, 0, 0, 1), (1, 0, 0, 1), (0, 1, 0, 1)):
+        material.node_tree.nodes[0].inputs["Color"].default_value = colour
+        pictures.append(blender.read_exr(blender.render(tmp_path / "a.exr"))["ViewLayer.Combined"][8, 8, :3])
+    np.testing.assert_allclose(pictures, [[1, 0, 0], [1, 0, 0], [0, 1, 0]], rtol=1e-5)
+
+
+def test_view_layers_are_kept_apart(compiled, tmp_path):
+    blender.add_plane(size=20)
+    other = bpy.context.scene.view_layers.new("Other")
+    other.material_override = blender.new_material("Lamp", "ShaderNodeEmission", Color=(0, 3, 0, 1), Strength=1)
+    _frames(tmp_path)
+    assert len(compiled) == 2
+    picture = blender.read_exr(tmp_path / "0002.exr")
+    assert picture["Other.Combined"][8, 8, 1] == pytest.approx(3)
+    assert picture["ViewLayer.Combined"][8, 8, 1] < 1
+
+
+def test_values_are_compared_to_the_last_bit():
+    blender.add_plane().data.materials.append(blender.new_material("Red", "ShaderNodeBsdfDiffuse", Color=(0.8, 0.1, 0.1, 1)))
+    blender.set_world((1, 1, 1))
+    (one, _), (other, _) = blender.export(), blender.export()
+    assert one is not other
+    assert is_same(one, other)
+    o = other.objects[0]
+    vertices = o.mesh.vertices.copy()
+    vertices[2, 3] = np.nextafter(vertices[2, 3], np.float32(1))
+    assert not is_same(one, replace(other, objects=(replace(o, mesh=replace(o.mesh, vertices=vertices)),)))
+    assert not is_same(one, replace(other, objects=(replace(o, name="B"),)))
+    assert not is_same(one, replace(other, objects=()))
+    assert not is_same({"a": 1}, {"b": 1})
+    assert not is_same(1, 1.0)
+    # What it does not know is the same only if it is one thing.
+    assert not is_same(object(), object())
+    assert is_same(persistent, persistent)
