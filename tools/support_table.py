@@ -32,6 +32,7 @@ does `glanz info`.
 
 Written by `make support` from the code of the export; `make test` checks that it says the same.
 """
+DENOISING = "Denoising Albedo, Normal and Depth of mirrors and glass are their own, not those of what is seen in them"
 NODES = """
 ## Nodes
 
@@ -105,11 +106,11 @@ def features():
     exact = {
         "Cameras": [f"{camera._KINDS[kind][0].label.lower()} cameras" for kind in camera._KINDS],
         "Lights": [f"{kind.lower()} lights" for kind in light._KINDS],
-        "Passes": [", ".join(passes.TABLE), "Cryptomatte by object, material and asset"],
+        "Passes": [", ".join(passes.TABLE), "Cryptomatte by object, material and asset", "AOVs", "light groups"],
         "Objects": ["meshes, curves, surfaces, text and metaballs, with modifiers, and instances of them"],
         "Motion": ["cameras and objects that move, turn, grow and deform"],
     }
-    noted = {}
+    noted = {"Passes": {DENOISING: "approximated"}}
     for module, section in MODULES.items():
         noted.setdefault(section, {}).update(notes_of(module))
     parts = []

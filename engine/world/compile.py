@@ -228,6 +228,8 @@ def compile_world(
 def _light_groups(scene, lights, emitters):
     """{name: (lights + 1,) bool}, see `CompiledWorld`."""
     around = [scene.world.group]
+    if not any((*lights.lamp_groups, *around, *(o.group for o in scene.objects))):
+        return {}
     names = np.array([*lights.lamp_groups, *(around if lights.environment else ()), *(o.group for o in scene.objects), *around])
     # As the film is told of lights: lamps and environment, patches by whose they are, what is the same everywhere.
     first = lights.first_patch

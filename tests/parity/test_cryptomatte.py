@@ -77,3 +77,26 @@ def test_the_comparison_catches_surfaces_that_hide_too_much(monkeypatch, tmp_pat
     half_hidden()
     monkeypatch.setattr(cryptomatte, "opacity", lambda plan, rays, surface: rays.beta.mean(axis=0))
     assert wrong(rendered("GLANZ", tmp_path), rendered("CYCLES", tmp_path)) == [f"{kind} shares" for kind in KINDS]
+
+
+def test_the_compositor_makes_mattes_of_what_glanz_has_rendered(tmp_path):
+    """By the name in the manifest: where the card is, it covers 0.3, and nothing elsewhere."""
+    half_hidden()
+    scene = bpy.context.scene
+    scene.render.engine = "GLANZ"
+    tree, end = test_data_passes.compositor()
+    node = tree.nodes.new("CompositorNodeCryptomatteV2")
+    node.source, node.matte_id = "RENDER", "Card"
+    node.layer_name = f"{bpy.context.view_layer.name}.CryptoObject"
+    tree.links.new(node.outputs["Matte"], end)
+    image = scene.render.image_settings
+    if hasattr(image, "media_type"):
+        image.media_type = "IMAGE"
+    image.file_format, image.color_depth = "OPEN_EXR", "32"
+    scene.render.filepath = str(tmp_path / "matte.exr")
+    bpy.ops.render.render(write_still=True)
+    (matte,) = blender.read_exr(tmp_path / "matte.exr").values()
+    covered = matte[..., 0][matte[..., 0] > 0.2]
+    assert 50 < covered.size < 200
+    assert abs(np.median(covered) - 0.3) < 0.01
+    assert (matte[..., 0] == 0).mean() > 0.8
