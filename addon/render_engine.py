@@ -1,6 +1,7 @@
 """The render engine that Blender sees: export, render, write tiles, listen for Esc."""
 
 import sys
+import time
 from contextlib import closing, suppress
 from dataclasses import replace
 from functools import partial
@@ -56,12 +57,13 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
     def _render(self, depsgraph):
         from ..engine import Requirements, metadata, render
         from .export import Findings, export_views
-        from .results import Outlines, make_room, stamp, write_tile
+        from .results import Outlines, make_room, outcome, stamp, write_tile
         from .settings import doubling, settings_of
 
         settings = settings_of(depsgraph.scene_eval, depsgraph.view_layer_eval, width=self.resolution_x, height=self.resolution_y)
         layer = depsgraph.view_layer.name
         views = make_room(self, settings, layer)
+        begun = time.monotonic()
         self.update_stats("", "Exporting the scene")
         warnings = Warnings(self)
         findings, cameras = Findings(), [partial(self._camera, view) for view in views]
@@ -89,12 +91,14 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
                     for tile in step.tiles:
                         write_tile(self, tile, settings.region, layer, view)
                     outlines.show(step.in_work)
-                    status.show((number + step.done) / len(views), len(warnings), where)
+                    done = (number + step.done) / len(views)
+                    status.show(done, len(warnings), where)
                     if self.is_cancelled():
                         break
             if self.is_cancelled():
                 break
         outlines.show(())
+        stamp(self, outcome(layer, settings.samples, done, time.monotonic() - begun, len(warnings)))
         self._keep(depsgraph, requirements, findings)
         warnings.close()
 

@@ -1,6 +1,7 @@
 """F12: what is in the saved file, and that there is none when something went wrong."""
 
 import threading
+import time
 
 import bpy
 import numpy as np
@@ -63,6 +64,23 @@ def test_the_file_says_how_it_was_made(furnace, tmp_path):
     bpy.context.scene.glanz.samples = 3
     header = blender.header(blender.render(tmp_path / "a.exr"))
     assert (header["glanz.samples"], header["glanz.version"]) == ("3", engine.__version__)
+
+
+def test_the_file_says_how_each_layer_went(furnace, tmp_path, monkeypatch):
+    """Samples, time and warnings; and that it was cancelled."""
+    scene = bpy.context.scene
+    scene.view_layers.new("Other").samples = 2
+    blender.link("Smoke", bpy.data.volumes.new("Smoke"))
+    began = time.monotonic()
+    header = blender.header(blender.render(tmp_path / "a.exr"))
+    seconds = [float(header[f"glanz.{layer}.total_time"].removesuffix(" s")) for layer in ("ViewLayer", "Other")]
+    assert all(0 < s < time.monotonic() - began for s in seconds)
+    assert [header[f"glanz.{layer}.samples"] for layer in ("ViewLayer", "Other")] == ["4", "2"]
+    assert [header[f"glanz.{layer}.{what}"] for layer in ("ViewLayer", "Other") for what in ("done", "warnings")] == ["100%", "1"] * 2
+    scene.glanz.tile_size = 16
+    _CancelledAfter(monkeypatch, 3)
+    share = blender.header(blender.render(tmp_path / "a.exr"))["glanz.ViewLayer.done"]
+    assert 3 / 16 <= int(share.removesuffix("%")) / 100 + 0.01 < 1
 
 
 def test_row_0_is_at_the_top_and_column_0_on_the_left(tmp_path):
