@@ -76,7 +76,7 @@ def capture(frame=None, scene_name=None, view_layer=None, overrides=None, strict
     layer = _view_layer(scene, view_layer, findings)
     if frame is not None:
         scene.frame_set(frame)
-    with _registered(), _render_settings(scene.render):
+    with _registered(), _render_settings(scene.render), _used(layer):
         GlanzCaptureEngine.overrides, GlanzCaptureEngine.findings = dict(overrides or {}), findings
         GlanzCaptureEngine.strict = strict
         GlanzCaptureEngine.outcome = None
@@ -136,6 +136,16 @@ def _registered():
         bpy.utils.unregister_class(GlanzCaptureEngine)
         for module in own:
             module.unregister()
+
+
+@contextmanager
+def _used(layer):
+    """A view layer switched on, or Blender would render another one in its place; restored afterwards."""
+    before, layer.use = layer.use, True
+    try:
+        yield
+    finally:
+        layer.use = before
 
 
 @contextmanager

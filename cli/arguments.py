@@ -104,6 +104,7 @@ def _add_file(command):
 
 def _add_scene(command):
     command.add_argument("--scene", metavar="S", help="name of the scene in the .blend file; the active one if not given")
+    command.add_argument("--view-layer", metavar="L", help="name of the view layer in the .blend file; the first that is used if not given")
 
 
 def _add_strict(command):

@@ -38,7 +38,7 @@ def render(arguments, terminal):
         for output in outputs:
             # Before the work, not after it.
             check_writable(numbered(output, frame, is_sequence))
-    source = open_source(arguments.file, arguments.scene, terminal.keep_stdout_for_us)
+    source = _source(arguments, terminal)
     for frame in frames:
         shot = source.shot(frame, arguments.resolution, arguments.strict or None)
         settings = _overridden(shot.settings, arguments)
@@ -54,7 +54,7 @@ def render(arguments, terminal):
 
 def info(arguments, terminal):
     """Say what the scene requires and what is approximated or ignored."""
-    shot = open_source(arguments.file, arguments.scene, terminal.keep_stdout_for_us).shot(arguments.frame, strict=False)
+    shot = _source(arguments, terminal).shot(arguments.frame, strict=False)
     scene, warnings = validate(shot.scene, shot.settings)
     settings = dataclasses.asdict(shot.settings)
     requirements = Requirements.of(scene, shot.settings)
@@ -86,12 +86,16 @@ def info(arguments, terminal):
 def export(arguments, terminal):
     """Write one frame as a scene file."""
     check_writable(arguments.output)
-    shot = open_source(arguments.file, arguments.scene, terminal.keep_stdout_for_us).shot(arguments.frame, strict=arguments.strict or None)
+    shot = _source(arguments, terminal).shot(arguments.frame, strict=arguments.strict or None)
     for warning in shot.warnings:
         terminal.warn(warning)
     with terminal.stopper.orderly():
         write_scene(arguments.output, shot.scene, shot.settings)
     terminal.wrote(arguments.output)
+
+
+def _source(arguments, terminal):
+    return open_source(arguments.file, arguments.scene, terminal.keep_stdout_for_us, arguments.view_layer)
 
 
 def _overridden(settings, arguments):

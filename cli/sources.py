@@ -31,7 +31,7 @@ class Shot:
     by_kind: dict = field(default_factory=dict)
 
 
-def open_source(path, scene_name, before_blender):
+def open_source(path, scene_name, before_blender, view_layer=None):
     """The source for `path`, a .blend file or a scene file; `before_blender` is called before Blender is loaded.
 
     Raises FileError or SceneError, naming the cause.
@@ -39,14 +39,16 @@ def open_source(path, scene_name, before_blender):
     if not os.path.lexists(path):
         raise FileError(f"cannot read '{path}': file not found")
     if Path(path).suffix.lower() == ".blend":
-        return _Blend(path, scene_name, before_blender)
+        return _Blend(path, scene_name, before_blender, view_layer)
+    if view_layer is not None:
+        raise SceneError(f"'{path}' is a scene file, which has no view layers, so none called '{view_layer}'")
     return _SceneFile(path, scene_name)
 
 
 class _Blend:
     """A .blend file, opened by Blender as a Python module."""
 
-    def __init__(self, path, scene_name, before_blender):
+    def __init__(self, path, scene_name, before_blender, view_layer):
         try:
             with open(path, "rb"):
                 pass
@@ -63,7 +65,7 @@ class _Blend:
         from ..addon import capture
 
         self._capture = capture
-        self._scene_name = scene_name
+        self._scene_name, self._view_layer = scene_name, view_layer
         capture.open_blend(path)
 
     def shot(self, frame=None, size=None, strict=None):
@@ -73,7 +75,9 @@ class _Blend:
         """
         overrides = {"width": size[0], "height": size[1]} if size else {}
         findings = self._capture.Findings()
-        scene, settings, warnings = self._capture.capture(frame, self._scene_name, overrides=overrides, strict=strict, findings=findings)
+        scene, settings, warnings = self._capture.capture(
+            frame, self._scene_name, self._view_layer, overrides, strict=strict, findings=findings
+        )
         notes = tuple(note.as_dict() for note in findings.notes)
         by_kind = {kind: findings.lines((kind,)) for kind in self._capture.KINDS}
         return Shot(scene, settings, self._current_frame() if frame is None else frame, warnings, notes, by_kind)

@@ -135,7 +135,6 @@ class CameraTrack:
             findings.note("the lens changes while the shutter is open, it is that of the middle", f"camera '{self.middle.name}'")
         return replace(self.middle, motion=shutter.picked([camera.world_from_camera for camera in seen], self._keys))
 
-
     def beside(self):
         """Where the camera is one frame before and one after, (2, 4, 4), for passes; (0, 4, 4) where nobody asks."""
         looks = () if self._blurs else self._seen.values()

@@ -154,7 +154,7 @@ class Decoder:
             raise FileError(f"its {name} {values.get('name', '')!r} is damaged ({error})") from error
 
 
-_TEXTURED = {Material: ("emission", "alpha"), World: ("radiance",)}
+_TEXTURED = {Material: ("emission", "alpha", "holdout"), World: ("radiance",)}
 """The fields of values, beside all parameters of BSDFs, that may be textures."""
 
 

@@ -109,6 +109,10 @@ def test_other_scenes_and_view_layers_are_found_by_name(scene):
     _, settings, _ = capture(view_layer="Front")
     assert settings.passes == ("Combined", "Depth")
     assert capture()[2] == ("only view layer 'ViewLayer' is rendered, not: Front",)
+    # Blender itself would render the other one.
+    layer.use = False
+    assert capture(view_layer="Front")[1].passes == ("Combined", "Depth")
+    assert not layer.use
 
 
 @pytest.mark.parametrize(

@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 from glanz.engine.io.exr import read_exr, read_exr_metadata
@@ -18,6 +19,9 @@ bpy.ops.wm.read_factory_settings()
 scene = bpy.context.scene
 scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = 48, 32, 50
 scene.view_layers[0].use_pass_z = True
+empty = scene.view_layers.new("Empty")
+empty.layer_collection.children[0].exclude = True
+empty.use = False
 cube = bpy.data.objects["Cube"]
 for frame, x in ((1, 0.0), (3, 1.0)):
     cube.location.x = x
@@ -95,6 +99,21 @@ def test_frames_are_numbered_and_differ(folder, glanz):
     assert (folder / "f01.png").read_bytes() != (folder / "f03.png").read_bytes()
     glanz("render scene.blend -o g#.exr --frame 3 --samples 1 --quiet")
     assert bits(folder / "g3.exr") == bits(folder / "f_0003.exr")
+
+
+def test_a_view_layer_is_rendered_by_its_name(folder, glanz):
+    """Also where it is not used, and without a note about others: it has no cube in front of the world, which is one colour."""
+    result = glanz("render scene.blend --view-layer Empty -o layer.exr --samples 1")
+    assert "view layer" not in result.stderr
+    red = read_exr(folder / "layer.exr")["R"]
+    assert red.any()
+    np.testing.assert_allclose(red, red[0, 0], rtol=1e-5)
+    glanz("render scene.blend -o first.exr --samples 1")
+    first = read_exr(folder / "first.exr")["R"]
+    assert first.max() > 1.5 * first.min()
+    assert "'Nope'" in glanz("info scene.blend --view-layer Nope", status=1).stderr
+    glanz("export scene.blend -o layer.glanz --view-layer Empty")
+    assert "has no view layers" in glanz("info layer.glanz --view-layer Empty", status=1).stderr
 
 
 def test_info_prints_json_and_nothing_else(glanz):

@@ -191,6 +191,23 @@ def test_textures_come_back_and_pictures_stay_shared(tmp_path):
     assert first.emission.bitmap is second.emission.bitmap is first.lobes[0].reflectance.textures[0].bitmap
 
 
+def test_what_is_hidden_and_held_out_comes_back(tmp_path):
+    scene = textured_scene()
+    first, *others = scene.objects
+    materials = tuple(dataclasses.replace(material, holdout=material.emission) for material in first.materials)
+    scene = dataclasses.replace(
+        scene,
+        objects=(dataclasses.replace(first, materials=materials, hidden_from=("glossy", "camera")), *others),
+        lights=(PointLight(hidden_from=("diffuse",)),),
+        world=dataclasses.replace(scene.world, hidden_from=("transmission",)),
+    )
+    write_scene(tmp_path / "a", scene, Settings(film_transparent=True))
+    back, settings = read_scene(tmp_path / "a")
+    assert same(scene, back)
+    assert (back.objects[0].hidden_from, back.lights[0].hidden_from) == (("camera", "glossy"), ("diffuse",))
+    assert settings.film_transparent
+
+
 def test_every_texture_with_its_defaults_comes_back(tmp_path):
     materials = tuple(Material(name=key, emission=cls()) for key, cls in TEXTURES.items())
     mesh = Mesh(name="m", vertices=np.zeros((3, 0), np.float32), triangles=np.zeros((3, 0)))
