@@ -74,6 +74,8 @@ def capture(frame=None, scene_name=None, view_layer=None, overrides=None, strict
     scene = _scene(scene_name)
     findings = findings or Findings()
     layer = _view_layer(scene, view_layer, findings)
+    if bpy.app.autoexec_fail:
+        findings.note(f"scripts of the file are not run, what they drive stays as it is ({bpy.app.autoexec_fail_message})", "")
     if frame is not None:
         scene.frame_set(frame)
     with _registered(), _render_settings(scene.render), _used(layer):

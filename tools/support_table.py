@@ -63,6 +63,7 @@ MODULES = {
     "nodes": "Node trees",
     "values": "Node trees",
     "images": "Images",
+    "missing": "Libraries",
 }
 """Where what is noted of whole data-blocks stands in the code, and in the page."""
 

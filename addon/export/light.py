@@ -13,6 +13,7 @@ import numpy as np
 from ...engine import AreaLight, CosineSpotLight, PointLight, Shade, SpotLight, SunLight
 from .colours import as_texture, varies
 from .findings import IGNORED
+from .missing import note_missing
 from .nodes import has_nodes, output_node
 from .shaders import surface_of
 
@@ -32,6 +33,7 @@ def export_light(light_object, matrix, findings, emissions, values_of=lambda nam
     """
     light = light_object.data
     name = f"light '{light_object.name}'"
+    note_missing(light, name, findings)
     if getattr(getattr(light, "cycles", None), "is_portal", False):
         findings.note("light portals are ignored", name)
         return None

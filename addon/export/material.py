@@ -11,6 +11,7 @@ from .colours import BLACK, added, cut, inverted, varies
 from .findings import IGNORED, Findings
 from .inside import absorbs, medium_of, with_dispersion, with_one_index
 from .lecture import is_lecture, lecture_medium, lecture_surface
+from .missing import note_missing
 from .nodes import aov_nodes, has_nodes, output_node
 from .principled import Layers
 from .relief import displacement_of
@@ -49,6 +50,7 @@ def _aovs(material, findings, bitmaps, names):
 
 def _surface(material, findings, bitmaps):
     owner = f"material '{material.name}'"
+    note_missing(material, owner, findings)
     if is_lecture(material):
         checked = _checked(material.name, owner, lecture_surface(material, owner, findings), findings)
         return replace(checked, ambient=clean_colour(material.glanz.k_a, owner, findings), medium=lecture_medium(material))

@@ -4,6 +4,7 @@ Nodes and sockets are found by type and identifier, never by name: names are tra
 """
 
 from .findings import APPROXIMATED, IGNORED, MISSING
+from .missing import is_missing
 
 
 def has_nodes(datablock):
@@ -121,7 +122,7 @@ class Links:
         if node.type == "REROUTE":
             return self, node.inputs[0]
         if node.type == "GROUP":
-            if node.node_tree is None:
+            if node.node_tree is None or is_missing(node.node_tree):
                 self.note("the node group is missing", MISSING)
                 return self, None
             inside = next((n for n in node.node_tree.nodes if n.type == "GROUP_OUTPUT" and n.is_active_output), None)

@@ -12,6 +12,7 @@ from .kept import Kept
 from .light import Emissions, export_light
 from .material import export_material, held_out, is_volume_only
 from .mesh import export_mesh, mesh_of
+from .missing import note_missing
 from .motion import STILL
 from .object_values import object_values
 from .sights import sights_of
@@ -183,6 +184,7 @@ class _Parts:
         """The `_Placed` mesh of an object, or None where there is nothing to render."""
         # Text, curves and metaballs come twice: as themselves, and as an instance whose data is a mesh.
         if not isinstance(ob.data, bpy.types.Mesh):
+            self._note_missing_links(ob)
             if ob.type in _NOT_RENDERED:
                 self._findings.note(_NOT_RENDERED[ob.type], f"object '{ob.name}'", IGNORED)
             return None
@@ -193,6 +195,7 @@ class _Parts:
         return self._parts[key]
 
     def _new(self, ob):
+        self._note_missing_links(ob)
         if not has_polygons(ob):
             return None
         # Slots, not the mesh's own list: they know which materials are linked to the object instead.
@@ -216,6 +219,13 @@ class _Parts:
         for source, layer in attributes:
             if source in ("uv", "tangent") and layer and layer not in data.uv_layers:
                 self._findings.note(f"there is no UV map '{layer}', it counts as 0", f"mesh '{data.name}'", MISSING)
+
+    def _note_missing_links(self, ob):
+        # What is evaluated of a mesh does not know whether that was there.
+        ob = ob.original
+        for datablock, kind in ((ob, "object"), (ob.instance_collection, "collection"), (ob.data, ob.type.lower())):
+            if datablock is not None:
+                note_missing(datablock, f"{kind} '{datablock.name}'", self._findings)
 
     def _material(self, material):
         key = material.as_pointer() if material else None

@@ -8,6 +8,7 @@ from ..passes import aovs, attributes
 from .camera import export_camera
 from .findings import IGNORED, Findings
 from .kept import Kept
+from .missing import note_missing
 from .motion import STILL, Beside, CameraTrack, Shutter, Tracks
 from .objects import export_objects
 from .world import export_world
@@ -120,3 +121,5 @@ def _note_ignored(scene, findings):
     for what, is_on in _NOT_FOLLOWED.items():
         if is_on(scene):
             findings.note(what, f"scene '{scene.name}'", IGNORED)
+    for collection in scene.original.collection.children_recursive:
+        note_missing(collection, f"collection '{collection.name}'", findings)

@@ -6,6 +6,7 @@ from ...engine import RAY_KINDS, Mist, World
 from .environment import as_picture
 from .findings import IGNORED
 from .material import clean_colour
+from .missing import note_missing
 from .nodes import has_nodes, output_node
 from .shaders import surface_of
 from .values import Reader
@@ -28,6 +29,7 @@ def export_world(world, findings, bitmaps):
 
 def _surroundings(world, findings, bitmaps):
     owner = f"world '{world.name}'"
+    note_missing(world, owner, findings)
     if not has_nodes(world):
         return World(name=world.name, radiance=clean_colour(world.color, owner, findings))
     output = output_node(world.node_tree)
