@@ -36,7 +36,7 @@ def test_groups_add_up_to_the_picture(integrator):
     """To the rounding of float32; a group that nothing belongs to is black. The world is a picture, or even."""
     even = dataclasses.replace(grouped(), world=h.World(radiance=(0.2, 0.3, 0.4), group="sky"))
     for scene in (grouped(), even):
-        parts = parts_of(scene, integrator=integrator)
+        parts = parts_of(scene, integrator=integrator, branches=2)
         whole = sum(parts[f"Combined_{name}"] for name in NAMES)
         assert np.abs(whole - parts["Combined"]).max() <= 1e-6 * parts["Combined"].max()
         assert all(parts[f"Combined_{name}"].any() for name in NAMES)

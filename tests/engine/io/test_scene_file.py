@@ -63,11 +63,13 @@ def a_scene():
         triangles=rng.integers(0, 9, (3, 4)),
         normals=np.zeros((3, 5)),
         shapes=rng.standard_normal((4, 3, 9)),
+        beside=rng.standard_normal((2, 3, 9)),
         shape_normals=rng.standard_normal((4, 3, 5)),
     )
     red = Material(name="röt", lobes=(Lambert((0.7, 0.1, 1 / 3)), Phong((0.1, 0.1, 0.1), exponent=np.float32(12.3))))
     red = dataclasses.replace(red, medium=Medium(absorption=(1 / 3, 0, float("inf")), priority=-2))
-    lamp = Material(name="lamp", emission=(1e-300, 5, 7))
+    aovs = (("way", Geometry("incoming")), ("heat", 1 / 3), ("tint", (1, 2.5, 3)))
+    lamp = Material(name="lamp", emission=(1e-300, 5, 7), index=3, aovs=aovs)
     matrix = rng.standard_normal((4, 4))
     return Scene(
         camera=PerspectiveCamera(
@@ -80,7 +82,7 @@ def a_scene():
         ),
         objects=[
             Object(name="a", mesh=corners, materials=(red, lamp), world_from_object=matrix),
-            Object(name="b", mesh=corners, materials=(lamp,)),
+            Object(name="b", mesh=corners, materials=(lamp,), asset="a", group="key", beside=rng.standard_normal((2, 4, 4))),
             Object(name="c", mesh=small, motion=rng.standard_normal((2, 4, 4))),
             Object(name="e", mesh=shaped),
             Object(name="d", mesh=small, world_from_object=np.full((4, 4), np.nan)),
@@ -92,7 +94,10 @@ def a_scene():
             AreaLight(size_x=1e-30, is_ellipse=True),
             SpotLight(shade=Shade(texture=IesTexture(Geometry("incoming")), world_from_light=matrix, values=(("random", (0.5,) * 4),))),
         ),
+        camera_beside=rng.standard_normal((2, 4, 4)),
         world=World(
+            group="sky",
+            occlusion_distance=0.5,
             radiance=(0.1, 0.2, 0.3),
             mist=Mist(start=1 / 3, depth=7, falloff="linear"),
             environment=EnvironmentMap(
@@ -146,8 +151,8 @@ def test_what_is_shared_stays_shared(saved):
     assert a.materials[1] is b.materials[0]
     with zipfile.ZipFile(saved) as file:
         # vertices, triangles, normals, normal_indices, material_indices of the one large mesh, a matrix that is not finite, a sky;
-        # two motions; shapes, their normals, and the vertices that follow from them
-        assert len(file.namelist()) == 7 + 2 + 3 + 1
+        # two motions; shapes, their normals, and the vertices that follow from them; three of frames beside
+        assert len(file.namelist()) == 7 + 2 + 3 + 1 + 3
 
 
 def test_every_plug_in_with_its_defaults_comes_back(tmp_path):
