@@ -214,6 +214,13 @@ class Changes:
         elif ob is not None:
             ob.modifiers.new("Modifier", self.rng.choice(MODIFIERS))
 
+    def do_set_visibility(self):
+        ob = self._object()
+        if ob is not None:
+            for kind in ("camera", "diffuse", "glossy", "transmission", "shadow"):
+                setattr(ob, f"visible_{kind}", self.rng.random() < 0.7)
+            ob.is_holdout = self.rng.random() < 0.2
+
     def do_set_light(self):
         ob = self._object("LIGHT")
         if ob is not None:
