@@ -293,6 +293,32 @@ class GLANZ_LIGHT_PT_light(GlanzPanel, bpy.types.Panel):
             column.prop(context.object, "visible_camera", text="Visible to Camera")
 
 
+class GLANZ_LIGHT_PT_nodes(GlanzPanel, bpy.types.Panel):
+    """What a light shines through; Blender shows it for Cycles and EEVEE only."""
+
+    bl_label = "Nodes"
+    bl_context = "data"
+    bl_options = frozenset({"DEFAULT_CLOSED"})
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and context.light is not None
+
+    def draw(self, context):
+        light = context.light
+        column = self.column()
+        # From Blender 5.2 on all lights have nodes, and to ask is deprecated.
+        has_nodes = getattr(light.bl_rna.properties["use_nodes"], "is_deprecated", False) or light.use_nodes
+        if light.node_tree is None or not has_nodes:
+            column.prop(light, "use_nodes", icon="NODETREE", toggle=True)
+            return
+        output = light.node_tree.get_output_node("CYCLES")
+        if output is None:
+            column.label(text="There is no Light Output")
+        else:
+            self.layout.template_node_view(light.node_tree, output, output.inputs["Surface"])
+
+
 class GLANZ_WORLD_PT_preview(GlanzPanel, bpy.types.Panel):
     """Blender has one for Cycles only."""
 
@@ -365,6 +391,7 @@ _CLASSES = (
     GLANZ_OBJECT_PT_ray_visibility,
     GLANZ_WORLD_PT_ray_visibility,
     GLANZ_RENDER_PT_performance,
+    GLANZ_LIGHT_PT_nodes,
     GLANZ_WORLD_PT_preview,
     GLANZ_MATERIAL_PT_lecture,
     GLANZ_MATERIAL_PT_medium,

@@ -32,6 +32,10 @@ class Layout:
     def label(self, **options):
         self.drawn.append(options["text"])
 
+    def template_node_view(self, tree, node, socket):
+        assert socket in node.inputs.values()
+        self.drawn.append(socket.identifier)
+
     def separator(self):
         pass
 
@@ -139,6 +143,16 @@ def test_lights_can_be_edited(kind, names):
     if kind == "AREA":
         ob.data.shape = "ELLIPSE"
         assert "size_y" in _drawn("GLANZ_LIGHT_PT_light", ob)
+
+
+def test_what_a_light_shines_through_can_be_edited():
+    ob = blender.link("Light", bpy.data.lights.new("Light", "POINT"))
+    if ob.data.node_tree is None:
+        assert _drawn("GLANZ_LIGHT_PT_nodes", ob) == ["use_nodes"]
+        ob.data.use_nodes = True
+    assert _drawn("GLANZ_LIGHT_PT_nodes", ob) == ["Surface"]
+    ob.data.node_tree.nodes.clear()
+    assert _drawn("GLANZ_LIGHT_PT_nodes", ob) == ["There is no Light Output"]
 
 
 def test_a_spot_shows_the_cone_or_the_exponent():
