@@ -253,72 +253,6 @@ class GLANZ_VIEWLAYER_PT_override(GlanzPanel, bpy.types.Panel):
                 column.prop(context.view_layer, name)
 
 
-_SHAPE_OF_LIGHT = {
-    "POINT": ("shadow_soft_size", "use_soft_falloff"),
-    "SPOT": ("shadow_soft_size", "use_soft_falloff", "spot_size", "spot_blend"),
-    "SUN": ("angle",),
-    "AREA": ("shape", "size", "size_y", "spread"),
-}
-
-
-class GLANZ_LIGHT_PT_light(GlanzPanel, bpy.types.Panel):
-    """Everything about a light that Glanz renders; what this version of Blender lacks is skipped."""
-
-    bl_label = "Light"
-    bl_context = "data"
-
-    @classmethod
-    def poll(cls, context):
-        return super().poll(context) and context.light is not None
-
-    def draw(self, context):
-        light = context.light
-        self.layout.row().prop(light, "type", expand=True)
-        column = self.column()
-        for name in ("color", "use_temperature", "temperature", "energy", "exposure", "normalize"):
-            if hasattr(light, name) and not (name == "temperature" and not light.use_temperature):
-                column.prop(light, name)
-        column.separator()
-        is_cosine = light.type == "SPOT" and light.glanz.characteristic == "COSINE"
-        for name in _SHAPE_OF_LIGHT[light.type]:
-            if (name == "size_y" and light.shape in ("SQUARE", "DISK")) or (name in ("spot_size", "spot_blend") and is_cosine):
-                continue
-            column.prop(light, name)
-        if light.type == "SPOT":
-            column.prop(light.glanz, "characteristic")
-            if is_cosine:
-                column.prop(light.glanz, "exponent")
-        if context.object and context.object.data == light:
-            column.separator()
-            column.prop(context.object, "visible_camera", text="Visible to Camera")
-
-
-class GLANZ_LIGHT_PT_nodes(GlanzPanel, bpy.types.Panel):
-    """What a light shines through; Blender shows it for Cycles and EEVEE only."""
-
-    bl_label = "Nodes"
-    bl_context = "data"
-    bl_options = frozenset({"DEFAULT_CLOSED"})
-
-    @classmethod
-    def poll(cls, context):
-        return super().poll(context) and context.light is not None
-
-    def draw(self, context):
-        light = context.light
-        column = self.column()
-        # From Blender 5.2 on all lights have nodes, and to ask is deprecated.
-        has_nodes = getattr(light.bl_rna.properties["use_nodes"], "is_deprecated", False) or light.use_nodes
-        if light.node_tree is None or not has_nodes:
-            column.prop(light, "use_nodes", icon="NODETREE", toggle=True)
-            return
-        output = light.node_tree.get_output_node("CYCLES")
-        if output is None:
-            column.label(text="There is no Light Output")
-        else:
-            self.layout.template_node_view(light.node_tree, output, output.inputs["Surface"])
-
-
 class GLANZ_WORLD_PT_preview(GlanzPanel, bpy.types.Panel):
     """Blender has one for Cycles only."""
 
@@ -391,13 +325,11 @@ _CLASSES = (
     GLANZ_OBJECT_PT_ray_visibility,
     GLANZ_WORLD_PT_ray_visibility,
     GLANZ_RENDER_PT_performance,
-    GLANZ_LIGHT_PT_nodes,
     GLANZ_WORLD_PT_preview,
     GLANZ_MATERIAL_PT_lecture,
     GLANZ_MATERIAL_PT_medium,
     GLANZ_VIEWLAYER_PT_passes,
     GLANZ_VIEWLAYER_PT_override,
-    GLANZ_LIGHT_PT_light,
 )
 
 

@@ -5,10 +5,10 @@ from types import SimpleNamespace
 import bpy
 import pytest
 
-from glanz.addon import builtin_panels, panels, pass_panels, passes, requirements_panel
+from glanz.addon import builtin_panels, light_panels, panels, pass_panels, passes, requirements_panel
 from glanz.tests.addon import blender
 
-OWN = {panel.__name__: panel for panel in (*panels._CLASSES, *pass_panels._CLASSES, *requirements_panel._CLASSES)}
+OWN = {panel.__name__: panel for module in (panels, light_panels, pass_panels, requirements_panel) for panel in module._CLASSES}
 
 
 class Layout:
