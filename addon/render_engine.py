@@ -8,7 +8,7 @@ from functools import partial
 
 import bpy
 
-from . import backend, passes
+from . import backend, command_line, passes
 from .checks import Check, keep
 from .reports import Warnings, errors_logged, errors_shown, errors_told
 from .status import Status
@@ -60,7 +60,8 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
         from .results import Outlines, make_room, outcome, stamp, write_tile
         from .settings import doubling, settings_of
 
-        settings = settings_of(depsgraph.scene_eval, depsgraph.view_layer_eval, width=self.resolution_x, height=self.resolution_y)
+        asked = {**command_line.overrides(), "width": self.resolution_x, "height": self.resolution_y}
+        settings = settings_of(depsgraph.scene_eval, depsgraph.view_layer_eval, **asked)
         layer = depsgraph.view_layer.name
         views = make_room(self, settings, layer)
         begun = time.monotonic()

@@ -4,7 +4,7 @@ import logging
 import traceback
 from contextlib import contextmanager
 
-from . import backend
+from . import backend, command_line
 
 log = logging.getLogger("glanz")
 
@@ -49,6 +49,7 @@ def errors_shown(engine):
             traceback.print_exception(error)
         engine.error_set(message)
         engine.report({"ERROR"}, message)
+        command_line.end_after_failure()
 
 
 @contextmanager
