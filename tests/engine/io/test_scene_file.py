@@ -42,7 +42,7 @@ from glanz.engine import (
     read_scene,
     write_scene,
 )
-from glanz.engine.registry import BSDFS, CAMERAS, LIGHTS, TEXTURES
+from glanz.engine.registry import BSDFS, CAMERAS, LIGHTS
 from glanz.tests.chance import law
 
 
@@ -211,14 +211,6 @@ def test_what_is_hidden_and_held_out_comes_back(tmp_path):
     assert same(scene, back)
     assert (back.objects[0].hidden_from, back.lights[0].hidden_from) == (("camera", "glossy"), ("diffuse",))
     assert settings.film_transparent
-
-
-def test_every_texture_with_its_defaults_comes_back(tmp_path):
-    materials = tuple(Material(name=key, emission=cls()) for key, cls in TEXTURES.items())
-    mesh = Mesh(name="m", vertices=np.zeros((3, 0), np.float32), triangles=np.zeros((3, 0)))
-    scene = Scene(camera=None, objects=(Object(name="o", mesh=mesh, materials=materials),))
-    write_scene(tmp_path / "a", scene, Settings())
-    assert same(scene, read_scene(tmp_path / "a")[0])
 
 
 def test_reliefs_of_files_written_when_they_were_no_textures_are_read(tmp_path):

@@ -16,16 +16,21 @@ from glanz.engine import (
     LinearTexture,
     Material,
     Math,
+    Mesh,
     NoiseTexture,
+    Object,
+    Scene,
     Settings,
     read_scene,
     render_image,
     write_scene,
 )
+from glanz.engine.registry import TEXTURES
 from glanz.engine.scene.graphs import with_inner
 from glanz.tests import helpers as h
 from glanz.tests.chance import law
 from glanz.tests.contracts.test_textures import ALL
+from glanz.tests.engine.io.test_scene_file import same
 from glanz.tests.textured import with_uvs
 
 SETTINGS = Settings(width=2, height=2, samples=1, max_depth=1, threads=1)
@@ -33,6 +38,14 @@ SETTINGS = Settings(width=2, height=2, samples=1, max_depth=1, threads=1)
 
 def scene_of(texture):
     return h.scene([h.thing(with_uvs(h.quad()), Material(name="Wood", lobes=(Lambert(texture),)))], world=1.0)
+
+
+def test_every_texture_with_its_defaults_comes_back(tmp_path):
+    materials = tuple(Material(name=key, emission=cls()) for key, cls in TEXTURES.items())
+    mesh = Mesh(name="m", vertices=np.zeros((3, 0), np.float32), triangles=np.zeros((3, 0)))
+    scene = Scene(camera=None, objects=(Object(name="o", mesh=mesh, materials=materials),))
+    write_scene(tmp_path / "a", scene, Settings())
+    assert same(scene, read_scene(tmp_path / "a")[0])
 
 
 def written(path, texture, edit=lambda records: None):
