@@ -78,7 +78,7 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
         self.update_stats("", "Preparing the scene")
         ends = doubling(settings) if depsgraph.scene_eval.glanz.progress == "FRAME" else ()
         rendering = self._plans(depsgraph.scene_eval) or (lambda key, *asked: render(*asked))
-        status, outlines = Status(self, settings.samples), Outlines(self, settings.height)
+        status, outlines = Status(self, settings.samples), Outlines(self, settings.region)
         for number, (view, scene) in enumerate(zip(views, scenes, strict=True)):
             where = ", ".join((*((layer,) if len(depsgraph.scene_eval.view_layers) > 1 else ()), *((view,) if view else ())))
             # The eyes differ in their camera, and in their noise, or it would seem to float in depth.

@@ -71,21 +71,21 @@ def write_tile(engine, tile, region, layer, view=""):
 
 
 class Outlines:
-    """The tiles that Blender's render `engine` outlines in its picture; `height` [px] is that of the full frame.
+    """The tiles that Blender's render `engine` outlines in its picture, which is that of `region` (x0, y0, x1, y1) [px].
 
     Blender takes the outline of a tile away when it gets its result, even where that is unfinished; and Blender 5.2 does not
     draw anew for an outline that is taken away by itself.
     """
 
-    def __init__(self, engine, height):
+    def __init__(self, engine, region):
         engine.use_highlight_tiles = True
-        self._engine, self._height = engine, height
+        self._engine, (self._left, _, _, self._bottom) = engine, region
 
     def show(self, places):
         """Outline `places`, (x, y, width, height) [px] from the top left of the full frame, and no others."""
         self._engine.tile_highlight_clear_all()
         for x, y, width, height in places:
-            self._engine.tile_highlight_set(x, self._height - y - height, width, height, True)
+            self._engine.tile_highlight_set(x - self._left, self._bottom - y - height, width, height, True)
 
 
 def outcome(layer, samples, done, seconds, warnings):

@@ -61,7 +61,7 @@ def test_a_result_that_is_not_what_was_asked_for_is_an_error(granted, ended):
 
 
 def test_what_is_worked_on_is_outlined_and_nothing_else():
-    """Counted from the bottom; what stays is outlined again, for its unfinished results took that away."""
+    """Counted from the bottom left of the border; what stays is outlined again, for its unfinished results took that away."""
     shown = set()
 
     class Screen(Engine):
@@ -73,7 +73,7 @@ def test_what_is_worked_on_is_outlined_and_nothing_else():
             shown.add((x, y, width, height))
 
     engine = Screen()
-    outlines = Outlines(engine, 100)
+    outlines = Outlines(engine, (0, 0, 200, 100))
     assert engine.use_highlight_tiles
     outlines.show(((0, 0, 8, 8), (8, 0, 8, 5)))
     assert shown == {(0, 92, 8, 8), (8, 95, 8, 5)}
@@ -81,6 +81,8 @@ def test_what_is_worked_on_is_outlined_and_nothing_else():
     assert shown == {(8, 95, 8, 5), (16, 0, 8, 8)}
     outlines.show(())
     assert not shown
+    Outlines(engine, (10, 20, 60, 80)).show(((10, 20, 8, 8),))
+    assert shown == {(0, 52, 8, 8)}
 
 
 def test_a_frame_that_has_no_room_is_refused_before_blender_is_asked(monkeypatch):
