@@ -15,7 +15,7 @@ from pathlib import Path
 from fetch_wheels import ROOT, checksums, fetch
 
 FILES = ("__init__.py", "LICENSE", "README.md")
-FOLDERS = ("addon", "engine", "LICENSES")
+FOLDERS = ("addon", "cli", "engine", "LICENSES")
 TAGS = {"linux-x64": ("manylinux", "x86_64"), "windows-x64": ("win", "amd64"), "macos-arm64": ("macosx", "arm64")}
 """How the platform tag of a wheel for each platform begins and ends."""
 

@@ -52,8 +52,8 @@ def source(tmp_path):
 
 
 CODE = {
-    "__init__.py", "README.md", "LICENSE", "LICENSES/MIT.txt", "addon/__init__.py", "addon/presets/a.py", "engine/__init__.py",
-    "engine/maths/skydome.csv", "blender_manifest.toml",
+    "__init__.py", "README.md", "LICENSE", "LICENSES/MIT.txt", "addon/__init__.py", "addon/presets/a.py", "cli/__init__.py",
+    "engine/__init__.py", "engine/maths/skydome.csv", "blender_manifest.toml",
 }  # fmt: skip
 
 
