@@ -52,7 +52,7 @@ def source(tmp_path):
 
 
 CODE = {
-    "__init__.py", "README.md", "LICENSE", "LICENSES/MIT.txt", "addon/__init__.py", "addon/presets/a.py", "cli/__init__.py",
+    "__init__.py", "README.md", "LICENSE", "LICENSES/MIT.txt", "addon/__init__.py", "addon/presets/a.py", "cli/main.py",
     "engine/__init__.py", "engine/maths/skydome.csv", "blender_manifest.toml",
 }  # fmt: skip
 
