@@ -36,7 +36,8 @@ def _add_render(commands):
     _add_scene(command)
     frames = command.add_mutually_exclusive_group()
     _add_frame(frames)
-    frames.add_argument("--frames", type=frame_range, metavar="A-B[:STEP]", help="frames A to B, in steps of STEP")
+    told = "frames A to B, in steps of STEP; from a negative one: --frames=-5-5"
+    frames.add_argument("--frames", type=frame_range, metavar="A-B[:STEP]", help=told)
     for name, kind, text in (
         ("integrator", str, "how light is followed: path, distributed, whitted, whitted_phong, path_blind, path_naive"),
         ("sampler", str, "random numbers: stratified, sobol, blue_noise, multijitter, random, grid"),

@@ -12,11 +12,13 @@ class Bitmaps:
     """Engine values of the images met so far, at a `frame` of the scene.
 
     known  those of earlier exports
+    asked  those of this one
     """
 
     def __init__(self, frame=1, known=None):
         self._frame = frame
         self._known = {} if known is None else known
+        self.asked = {}
 
     def of(self, image, note, user=None, is_uncut=False):
         """The `Bitmap` of an image datablock, magenta where it is None or has no pixels, which `note` is told.
@@ -50,6 +52,7 @@ class Bitmaps:
     def _once(self, key, make):
         if key not in self._known:
             self._known[key] = make()
+        self.asked[key] = self._known[key]
         return self._known[key]
 
 

@@ -66,8 +66,8 @@ def _behind(reader, socket):
     reader, _, output = reader.source(socket)
     if output is None:
         return np.zeros(3)
-    node = output.node
-    return _TABLE.get(node.type, _left_out)(reader.beyond(node), node)
+    node, inside = output.node, reader.beyond(output.node)
+    return reader.once(output, lambda: _TABLE.get(node.type, _left_out)(inside, node)) if inside else np.zeros(3)
 
 
 def _left_out(reader, node):

@@ -11,7 +11,7 @@ class Kept:
 
     def __init__(self):
         self._before, self._asked = {}, {}
-        self._bitmaps = {}
+        self._bitmaps = Bitmaps()
 
     def mesh(self, ob, attributes, make):
         """The engine's mesh of an object (evaluated) for these attributes: as it is known, or else what `make()` says.
@@ -31,12 +31,13 @@ class Kept:
 
     def bitmaps(self, frame):
         """`Bitmaps` for a frame of the scene, which knows the images of earlier exports."""
-        return Bitmaps(frame, self._bitmaps)
+        self._bitmaps = Bitmaps(frame, self._bitmaps.asked)
+        return self._bitmaps
 
     def update(self, depsgraph):
         """Forget what Blender says has changed, and what nobody asked for since the last time; to be called before each export."""
         if depsgraph.id_type_updated("IMAGE"):
-            self._bitmaps.clear()
+            self._bitmaps = Bitmaps()
         updates = [update for update in depsgraph.updates if update.is_updated_geometry]
         changed = {_identity(update.id) for update in updates}
         is_known = bool(updates) or not any(map(depsgraph.id_type_updated, _SHAPES))

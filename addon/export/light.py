@@ -45,6 +45,9 @@ def export_light(light_object, matrix, findings, emissions, values_of=lambda nam
         shade = Shade(texture=emission, world_from_light=matrix, values=values_of(asked))
     else:
         S = S * emission
+    if S.min() < 0:
+        findings.note("it would take light away, so it is left out", name, IGNORED)
+        return None
     hidden = tuple(kind for kind in _SCATTERED if not getattr(light_object, f"visible_{kind}"))
     common = {"name": light_object.name, "is_visible": bool(light_object.visible_camera), "hidden_from": hidden, "shade": shade}
     common["group"] = light_object.lightgroup

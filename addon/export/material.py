@@ -7,7 +7,7 @@ import numpy as np
 
 from ...engine import Material, Transparent
 from .closure import Closure, colours_of, diffuse, merged, scaled_lobe, transparent, with_colours
-from .colours import BLACK, added, cut, inverted, varies
+from .colours import BLACK, added, as_texture, cut, inverted, varies
 from .findings import IGNORED, Findings
 from .inside import absorbs, medium_of, with_dispersion, with_one_index
 from .lecture import is_lecture, lecture_medium, lecture_surface
@@ -44,7 +44,7 @@ def _aovs(material, findings, bitmaps, names):
     for reader, node in aov_nodes(Reader(f"material '{material.name}'", findings, bitmaps), material.node_tree):
         name, is_value = node.aov_name, ("Value", node.aov_name) in names
         if is_value or ("Color", name) in names:
-            found[name] = reader.value(node, "Value" if is_value else "Color")
+            found[name] = as_texture(reader.value(node, "Value" if is_value else "Color"))
     return tuple(found.items())
 
 

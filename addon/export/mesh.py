@@ -40,10 +40,10 @@ def export_mesh(mesh, name, attributes=(), groups=()):
 @contextmanager
 def mesh_of(ob):
     """The mesh of an object (evaluated) whose data is one, while the block lasts."""
-    if ob.mode != "EDIT":
+    if not ob.data.is_editmode:
         yield ob.data
         return
-    # While it is edited, its data is elsewhere.
+    # While it is edited, by whichever of the objects that share it, its data is elsewhere.
     try:
         yield ob.to_mesh()
     finally:

@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 
 from .findings import IGNORED
-from .mesh import corner_normals, corners, is_flat, vertices
+from .mesh import corner_normals, corners, is_flat, mesh_of, vertices
 
 _MOST_STEPS = 7
 """As in Cycles: 129 keys."""
@@ -176,7 +176,8 @@ class Tracks:
         shapes = None
         if mesh is not None and may_deform(ob, parent):
             if id(mesh) not in self._shapes:
-                self._shapes[id(mesh)] = _Shapes(mesh, corners(ob.data), len(self._shutter.frames))
+                with mesh_of(ob) as data:
+                    self._shapes[id(mesh)] = _Shapes(mesh, corners(data), len(self._shutter.frames))
             shapes = self._shapes[id(mesh)]
         identity = self._identity(instance)
         matrices = [None] * len(self._shutter.frames)
@@ -209,7 +210,8 @@ class Tracks:
                     continue
                 known.matrices[number] = np.array(instance.matrix_world, np.float64)
                 if known.shapes:
-                    known.shapes.look(number, ob.data)
+                    with mesh_of(ob) as data:
+                        known.shapes.look(number, data)
 
     def _moved(self, instance, o):
         if not instance.keys:

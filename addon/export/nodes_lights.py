@@ -1,6 +1,7 @@
 """Nodes that are made for lights."""
 
 import bpy
+import numpy as np
 
 from ...engine import FileError, Geometry, IesTexture, LightFalloff, VectorTransform, parse_ies
 from .findings import MISSING
@@ -21,8 +22,7 @@ def _ies(reader, node, output):
         table = parse_ies(text) | {"falls_off": bpy.app.version < (5, 0)}
     except FileError as error:
         reader.note(f"the IES file {name} is not read ({error}), so it is {_UNREAD:g} in all directions, as in Cycles", MISSING)
-        table = {}
-        strength = strength * _UNREAD if isinstance(strength, float) else strength
+        table = {"intensity": np.full((2, 2), _UNREAD)}
     return IesTexture(reader.vector(node, _FROM_LIGHT), strength, **table)
 
 

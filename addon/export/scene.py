@@ -71,8 +71,22 @@ def export_still(depsgraph, settings, findings):
     """
     scene = depsgraph.scene_eval
     camera = export_camera(scene.camera, scene.render, settings.width, settings.height)
-    contents, _ = export_contents(depsgraph, Kept(), lambda ob: not ob.hide_render, findings)
+    hidden = _hidden_in_renders(depsgraph.view_layer_eval.layer_collection)
+    contents, _ = export_contents(depsgraph, Kept(), lambda ob: not (ob.hide_render or ob.original in hidden), findings)
     return replace(contents, camera=camera)
+
+
+def _hidden_in_renders(layer_collection):
+    """The objects (original) of a layer collection that are in none that is rendered."""
+    hidden, shown, todo = set(), set(), [(layer_collection, True)]
+    while todo:
+        here, is_on = todo.pop()
+        is_on = is_on and not here.collection.hide_render
+        # What is excluded is there as instances alone.
+        if not here.exclude:
+            (shown if is_on else hidden).update(ob.original for ob in here.collection.objects)
+        todo += [(child, is_on) for child in here.children]
+    return hidden - shown
 
 
 def _contents(depsgraph, findings, kept, check=lambda: None, tracks=STILL, is_shown=lambda ob: True, **asked):

@@ -63,6 +63,7 @@ def _glossy(reader, node):
 
 
 def _glass(reader, node):
+    _without_film(reader, node)
     values = reader.value(node, "Color"), _ior(reader, node), reader.value(node, "Roughness"), _preserves(node)
     return _bent(reader, node, closure.glass(*values))
 
@@ -107,6 +108,7 @@ def _refraction(reader, node):
 
 def _metallic(reader, node):
     _without_anisotropy(reader, node, "Anisotropy")
+    _without_film(reader, node)
     roughness = reader.value(node, "Roughness", 0.5)
     if getattr(node, "fresnel_type", "F82") == "F82":
         values = reader.value(node, "Base Color"), reader.value(node, "Edge Tint", _WHITE)
@@ -123,6 +125,11 @@ def _sheen(reader, node):
 
 def _holdout(reader, node):
     return Closure(holdout=_WHITE)
+
+
+def _without_film(reader, node):
+    if reader.is_linked(node, "Thin Film Thickness") or reader.number(node, "Thin Film Thickness"):
+        reader.note(f"Thin film of {node.bl_label} is left out", IGNORED)
 
 
 def _without_anisotropy(reader, node, identifier):
@@ -143,6 +150,8 @@ def _principled(reader, node):
     for identifier, (what, kind) in _LEFT_OUT.items():
         if reader.is_linked(node, identifier) or reader.number(node, identifier):
             reader.note(what, kind)
+    if reader.is_linked(node, "Coat Normal") and (reader.is_linked(node, "Coat Weight") or reader.number(node, "Coat Weight")):
+        reader.note("Coat Normal of Principled BSDF is left out, the coat has the normal of the base", IGNORED)
     lobes, left = Layers(
         base=reader.value(node, "Base Color"),
         metallic=reader.value(node, "Metallic"),

@@ -91,10 +91,19 @@ def test_a_check_and_a_render_find_the_same(scene, tmp_path):
 
 
 def test_what_the_engine_warns_of_is_kept_with_the_others(scene, tmp_path):
-    lamp = blender.link("Lamp", bpy.data.lights.new("Lamp", "POINT"))
-    lamp.data.energy = -1
+    far = blender.new_mesh("Far", [(0, 0, 0), (1e30, 0, 0), (0, 1e30, 0)], [(0, 1, 2)])
+    blender.link("Far", far)
     blender.render(tmp_path / "a.exr")
-    assert any("light 'Lamp' is left out" in what for what in whats())
+    assert any("1 triangles are left out" in what for what in whats())
+
+
+def test_a_strict_render_leaves_no_light_out(scene, tmp_path):
+    blender.link("Lamp", bpy.data.lights.new("Lamp", "POINT")).data.energy = -1
+    bpy.ops.glanz.check_scene()
+    assert whats()["it would take light away, so it is left out"].kind == "ignored"
+    scene.glanz.strict = True
+    with pytest.raises(RuntimeError, match="light 'Lamp'"):
+        blender.render(tmp_path / "a.exr")
 
 
 def test_a_strict_render_that_fails_leaves_its_list(scene, tmp_path):
@@ -112,6 +121,13 @@ def test_a_check_knows_what_is_rendered_and_says_what_it_does_not_see(scene):
     bpy.context.view_layer.update()
     bpy.ops.glanz.check_scene()
     assert "Unrendered" not in str(found().notes)
+    off = bpy.data.collections.new("Off")
+    scene.collection.children.link(off)
+    off.objects.link(bpy.data.objects.new("Ghost", bpy.data.volumes.new("Ghost")))
+    off.hide_render = True
+    bpy.context.view_layer.update()
+    bpy.ops.glanz.check_scene()
+    assert "Ghost" not in str(found().notes)
     assert whats()["it is hidden in 3D views, so it was not checked"].datablock == ("object", "Unseen")
 
 

@@ -183,3 +183,23 @@ def test_a_circle_through_a_group_and_back_is_cut_off_and_named():
     tree.links.new(node.outputs[0], strength)
     _, warnings = blender.export()
     assert any("circle" in line and "material 'Round'" in line for line in warnings)
+
+
+@pytest.mark.parametrize("is_diamond", [False, True])
+def test_volumes_are_read_however_deep_and_once(is_diamond):
+    """A chain of 700 would be too deep for Python, and a diamond of 40 too wide for anything."""
+    blender.add_camera()
+    material = bpy.data.materials.new("Fog")
+    tree = blender.new_nodes(material)
+    last = blender.add_node(tree, "ShaderNodeVolumeAbsorption", Density=1e-3, Color=(0, 0, 0, 1)).outputs[0]
+    for _ in range(40 if is_diamond else 700):
+        add = tree.nodes.new("ShaderNodeAddShader")
+        for socket in add.inputs if is_diamond else add.inputs[:1]:
+            tree.links.new(last, socket)
+        last = add.outputs[0]
+    tree.links.new(last, tree.nodes.new("ShaderNodeOutputMaterial").inputs["Volume"])
+    blender.add_plane().data.materials.append(material)
+    scene, warnings = blender.export()
+    density = scene.objects[0].materials[0].medium.absorption
+    assert density == pytest.approx((1e-3 * 2**40 if is_diamond else 1e-3,) * 3)
+    assert warnings == ()

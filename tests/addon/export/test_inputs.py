@@ -157,3 +157,20 @@ def test_random_numbers_are_those_of_cycles():
     numbers = unit_of(np.arange(1000), np.zeros(1000))
     assert 0.45 < numbers.mean() < 0.55
     assert np.unique(numbers).size > 990
+
+
+@pytest.mark.parametrize("output", ["UV", "Generated", "Object"])
+def test_aovs_may_be_coordinates(output, tmp_path):
+    """Straight from the node, with nothing between; each is there, and none ends the render."""
+    blender.add_camera(width=8, height=8)
+    layer = bpy.context.view_layer
+    layer.aovs.add().name = "place"
+    material = bpy.data.materials.new("M")
+    tree = blender.new_nodes(material)
+    aov = tree.nodes.new("ShaderNodeOutputAOV")
+    aov.aov_name = "place"
+    tree.links.new(tree.nodes.new("ShaderNodeTexCoord").outputs[output], aov.inputs["Color"])
+    blender.add_plane(size=8).data.materials.append(material)
+    found = blender.read_exr(blender.render(tmp_path / "a.exr"))
+    values = next(values for name, values in found.items() if name.endswith("place"))
+    assert (np.ptp(values[..., 0]) > 0) == (output != "UV")

@@ -158,3 +158,36 @@ def test_a_mesh_that_is_edited_is_exported_as_it_is(scene):
         assert scene.meshes["Plane"].triangles.shape[1] == 4 * triangles
     finally:
         bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def test_objects_that_share_a_mesh_which_is_edited_are_there():
+    """In a render and in 3D views; only one of them is in Edit Mode."""
+    blender.add_camera()
+    plane = blender.add_plane("One")
+    blender.add_plane("Two", mesh=plane.data)
+    bpy.context.view_layer.objects.active = plane
+    try:
+        bpy.ops.object.mode_set(mode="EDIT")
+        contents, _ = export_contents(bpy.context.evaluated_depsgraph_get(), Kept())
+        for scene in (contents, blender.export()[0]):
+            assert [(o.name, o.mesh.triangles.shape[1]) for o in scene.objects] == [("One", 2), ("Two", 2)]
+    finally:
+        bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def test_pictures_that_are_not_asked_for_any_more_are_forgotten():
+    """As those of frames that are gone, of a sequence or a movie."""
+    blender.add_camera()
+    material = bpy.data.materials.new("Poster")
+    tree = blender.new_nodes(material)
+    texture, shader = tree.nodes.new("ShaderNodeTexImage"), tree.nodes.new("ShaderNodeBsdfDiffuse")
+    tree.links.new(texture.outputs[0], shader.inputs["Color"])
+    tree.links.new(shader.outputs[0], tree.nodes.new("ShaderNodeOutputMaterial").inputs["Surface"])
+    blender.add_plane().data.materials.append(material)
+    kept = Kept()
+    for i in range(4):
+        texture.image = bpy.data.images.new(f"Frame {i}", 4, 4)
+        depsgraph = bpy.context.evaluated_depsgraph_get()
+        kept.update(depsgraph)
+        export_contents(depsgraph, kept)
+    assert len(kept._bitmaps.asked) == 1

@@ -111,10 +111,23 @@ def test_an_ies_file_that_cannot_be_read_is_told_of_the_light(content):
     assert "IES" in warnings[0]
     assert "light 'Lamp'" in warnings[0]
     texture = ies_of(found)
-    assert (texture.strength, texture.falls_off) == (100.0, False)
+    assert (texture.intensity == 100).all() and not texture.falls_off
     texture.check("light 'Lamp'")
 
 
 def test_a_file_that_is_not_there_is_told_of_the_light():
     new_light(name="Lamp", feed="ShaderNodeTexIES", socket="Strength", mode="EXTERNAL", filepath="//nowhere.ies")
     assert "light 'Lamp'" in exported()[1][0]
+
+
+@pytest.mark.parametrize("is_linked", [False, True])
+def test_the_strength_of_an_ies_file_that_is_not_there_counts(is_linked):
+    light = new_light(feed="ShaderNodeTexIES", socket="Strength", mode="EXTERNAL", filepath="/nowhere.ies")
+    tree = light.data.node_tree
+    strength = blender.node_input(next(n for n in tree.nodes if n.type == "TEX_IES"), "Strength")
+    strength.default_value = 0.5
+    if is_linked:
+        tree.links.new(blender.add_node(tree, "ShaderNodeLightFalloff", Strength=0.5).outputs["Quadratic"], strength)
+    texture = ies_of(exported()[0][0])
+    assert (texture.intensity == 100).all()
+    assert isinstance(texture.strength, LightFalloff) if is_linked else texture.strength == 0.5

@@ -4,7 +4,7 @@ import bpy
 import numpy as np
 import pytest
 
-from glanz.addon import capture
+from glanz.addon import capture, checks
 from glanz.tests.addon import blender
 
 
@@ -231,3 +231,18 @@ def test_a_picture_is_blurred_and_the_next_frame_is_another(tmp_path):
     assert np.array_equal(first, pixels(tmp_path / "b.exr"))
     bpy.context.scene.frame_set(2)
     assert not np.array_equal(first, pixels(tmp_path / "c.exr"))
+
+
+def test_what_is_edited_deforms_all_the_same(tmp_path):
+    """A wave, whose shape is worked out anew for each time, also where the mesh is in Edit Mode."""
+    open_shutter()
+    plane = blender.add_plane()
+    plane.modifiers.new("Wave", "WAVE")
+    bpy.context.view_layer.objects.active = plane
+    try:
+        bpy.ops.object.mode_set(mode="EDIT")
+        blender.render(tmp_path / "a.exr")
+        notes = checks.check_of(bpy.context.scene, bpy.context.view_layer.name).notes
+    finally:
+        bpy.ops.object.mode_set(mode="OBJECT")
+    assert not any("topology" in note.what for note in notes)
