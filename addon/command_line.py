@@ -50,14 +50,15 @@ def overrides(words=None):
     return found
 
 
-def end_after_failure():
+def end_after_failure(message):
     """End Blender where its command line says with which status: a farm has to know that a picture is not there.
 
     Blender asks for the status only where a script fails, and goes on with the next frame where a render does.
     """
     code = exit_code()
     if bpy.app.background and code is not None:
-        sys.stdout.flush()
+        # Where a script renders, Blender would print it only after this.
+        print(f"Error: {message}", flush=True)
         sys.stderr.flush()
         os._exit(code)
 

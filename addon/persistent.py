@@ -19,19 +19,20 @@ class Plans:
 
     def render(self, key, scene, settings, ends=()):
         """As the engine's `render`; nothing is compiled where `scene` differs from the last with this `key` in its camera alone."""
-        plan = self._known.get(key)
+        plan, told = self._known.get(key, (None, ()))
         if plan and _film_aside(plan.settings) == _film_aside(settings) and is_same(_camera_aside(plan.scene), _camera_aside(scene)):
-            yield Progress(0.0)
+            yield Progress(0.0, warnings=told)
             plan = plan.seen_from(scene.camera, settings)
             # Far from where the first camera was, single precision asks for a render space of its own.
             plan = plan if plan.is_exact() else prepare(scene, settings)[0]
         else:
             # Not two at once in memory.
-            plan = self._known[key] = None
+            self._known.pop(key, None)
+            plan = None
             yield Progress(0.0)
-            plan, warnings = prepare(scene, settings)
-            yield Progress(0.0, warnings=warnings)
-        self._known[key] = plan
+            plan, told = prepare(scene, settings)
+            yield Progress(0.0, warnings=told)
+        self._known[key] = plan, told
         yield from render_plan(plan, ends)
 
 

@@ -49,7 +49,7 @@ def errors_shown(engine):
             traceback.print_exception(error)
         engine.error_set(message)
         engine.report({"ERROR"}, message)
-        command_line.end_after_failure()
+        command_line.end_after_failure(message)
 
 
 @contextmanager

@@ -55,7 +55,7 @@ def test_a_value_out_of_range_fails_the_render(monkeypatch, tmp_path):
 
 
 @pytest.mark.parametrize(("words", "code"), [(["--python-exit-code", "3"], 3), (["--python-exit-code", "0"], None), ([], None)], ids=str)
-def test_blender_ends_with_the_status_that_it_was_asked_for(words, code, monkeypatch, tmp_path):
+def test_blender_ends_with_the_status_that_it_was_asked_for(words, code, monkeypatch, tmp_path, capfd):
     """Where a picture cannot be rendered Blender alone would go on and end with 0."""
     blender.add_camera(width=8, height=8)
     ended = []
@@ -63,6 +63,7 @@ def test_blender_ends_with_the_status_that_it_was_asked_for(words, code, monkeyp
     monkeypatch.setattr(sys, "argv", ["blender", "-b", *words, "-f", "1", "--", "--python-exit-code", "9", "--glanz-samples", "0"])
     with pytest.raises(RuntimeError):
         blender.render(tmp_path / "a.exr")
+    assert capfd.readouterr().out.count("Error: setting samples is 0") == (3 if code else 2)
     assert ended == ([code] if code else [])
 
 

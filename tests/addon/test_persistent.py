@@ -151,3 +151,11 @@ def test_values_are_compared_to_the_last_bit():
     # What it does not know is the same only if it is one thing.
     assert not is_same(object(), object())
     assert is_same(persistent, persistent)
+
+
+def test_what_is_left_out_is_told_for_each_frame(compiled, tmp_path):
+    blender.link("Far", blender.new_mesh("Far", [(0, 0, 0), (1e30, 0, 0), (0, 1, 0)], [(0, 1, 2)]))
+    _frames(tmp_path)
+    assert len(compiled) == 1
+    told = [value for name, value in blender.header(tmp_path / "0002.exr").items() if name.endswith("warnings")]
+    assert told == ["1"]
