@@ -310,6 +310,7 @@ class Pass(Protocol):
     One that looks up what meshes and objects bring has `attributes`, keys as in `world.attributes`; `facts(scene, layer)`
     {str: str}, if there are any, are what files have to say of it. Passes that scenes name are of families, see `Registry`.
 
+    One that sends shadow rays of its own says `sends_shadow_rays = True`.
     One that records light and asks by which kinds of lobes it has left the first surface says `is_split = True`, see
     `wavefront.splitting`.
     """

@@ -32,6 +32,7 @@ class Requirements:
         ask(needs.of_plugin("integrator", integrator), "settings")
         ask(needs.of_plugin("sampler", SAMPLERS[settings.sampler]), "settings")
         ask(needs.of_plugin("filter", FILTERS[settings.pixel_filter]), "settings")
+        has_shadows = integrator.samples_lights or any(getattr(PASSES[key], "sends_shadow_rays", False) for key in settings.passes)
         for key in settings.passes:
             ask(needs.of_plugin("pass", PASSES[key]), "settings")
             if getattr(PASSES[key], "is_split", False):
@@ -63,7 +64,7 @@ class Requirements:
             for material in o.materials:
                 if is_texture(material.alpha) or material.alpha < 1:
                     ask(needs.TRANSPARENCY, material.name)
-                    if integrator.samples_lights:
+                    if has_shadows:
                         ask(needs.TINTED_SHADOWS, material.name)
                 for lobe in material.lobes:
                     if not may_reflect(lobe):
@@ -71,7 +72,7 @@ class Requirements:
                     ask(needs.of_plugin("bsdf", type(lobe)), material.name)
                     if is_straight(lobe) and not integrator.tints_glass:
                         ask(needs.TRANSPARENCY, material.name)
-                    if integrator.samples_lights and lets_shadow_rays_pass(lobe, integrator.tints_glass):
+                    if has_shadows and lets_shadow_rays_pass(lobe, integrator.tints_glass):
                         ask(needs.TINTED_SHADOWS, material.name)
                 if may_emit(material):
                     ask(needs.EMISSIVE_MESHES, o.name)

@@ -21,6 +21,7 @@ class AmbientOcclusion:
     reduction = "mean"
     divided_by = ""
     background = 0.0
+    sends_shadow_rays = True
 
     @staticmethod
     def values(plan, rays, surface, reflection):

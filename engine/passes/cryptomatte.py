@@ -42,7 +42,7 @@ class Cryptomatte:
     @classmethod
     def of(cls, key):
         """The pass of that name, or None."""
-        found = re.fullmatch(r"Crypto(Object|Material|Asset)(\d\d)", key)
+        found = re.fullmatch(r"Crypto(Object|Material|Asset)([0-9][0-9])", key)
         return found and cls(found[1], int(found[2]))
 
     @property

@@ -86,6 +86,11 @@ def material_textures(material):
     return [*(t for value in (*material.lobes, material) for t in textures_of(value).values()), *material.relief, *own]
 
 
+def asks_for_around(material):
+    """Whether any of a material's textures asks what is around the body, see `textures.relative_index`."""
+    return any(getattr(part, "asks_for_around", False) for texture in material_textures(material) for part in with_inner(texture))
+
+
 def attributes_of(material):
     """What a material's textures ask of meshes and objects, see `asked_by`."""
     return asked_by(material_textures(material))

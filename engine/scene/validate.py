@@ -85,7 +85,7 @@ def _check_material(material):
     if not math.isfinite(material.index):
         raise SceneError(f"material '{material.name}': index is {material.index}, allowed: finite numbers")
     for aov in material.aovs:
-        if len(aov) != 2 or not isinstance(aov[0], str) or not (is_texture(aov[1]) or np.shape(aov[1]) in ((), (3,))):
+        if len(aov) != 2 or not isinstance(aov[0], str) or not (is_texture(aov[1]) or _is_plain(aov[1])):
             raise SceneError(f"material '{material.name}': its AOV {aov!r} is not a name, and one or three numbers or a texture")
     for relief in material.relief:
         if not is_texture(relief):
@@ -188,3 +188,8 @@ def _check_world(world, warnings):
 
 def _is_colour(values):
     return len(values) == 3 and all(math.isfinite(c) and c >= 0 for c in values)
+
+
+def _is_plain(value):
+    """Whether it is one number, or three."""
+    return np.shape(value) in ((), (3,)) and np.asarray(value).dtype.kind in "iuf"

@@ -15,6 +15,10 @@ _RIM = 1 / 7
 """The cosine at which F82 has its tint (Kutz, Hasan and Edmondson 2021, "Novel aspects of the Adobe Standard Material")."""
 
 
+_MOST_LEVEL = 1e6
+"""Specular levels beyond are the same; what is infinite would be no number where the index is 1."""
+
+
 @registry.add
 @dataclass(frozen=True, eq=False)
 class GgxAlbedo:
@@ -68,7 +72,8 @@ class GgxAlbedo:
             single = f0 * whole + (1 - f0) * moment("P", cos, roughness) - b * moment("Q", cos, roughness)
             mean = f0 + (1 - f0) / 21 - b / 126
         else:
-            ior = index_of_level(np.clip(np.nan_to_num(at.value(self.ior)[0]), 1e-3, 1e3), np.nan_to_num(at.value(self.level)[0]))
+            level = np.clip(np.nan_to_num(at.value(self.level)[0]), 0, _MOST_LEVEL)
+            ior = index_of_level(np.clip(np.nan_to_num(at.value(self.ior)[0]), 1e-3, 1e3), level)
             own = np.square((ior - 1) / (ior + 1))
             f0 = np.clip(own * np.nan_to_num(at.value(self.tint)), 0, 1)
             # Its Fresnel, stretched to go from f0 to 1.

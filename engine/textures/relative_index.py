@@ -19,6 +19,7 @@ class RelativeIndex:
     label = "Relative Index"
     is_pure = False
     asks_for_cosine = True
+    asks_for_around = True
 
     ior: object = 1.5
 

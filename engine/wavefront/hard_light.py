@@ -26,7 +26,8 @@ def add_illumination(plan, rays, surface, reflection, film):
     for light, wi, distance, E in _middles(plan, rays, surface):
         I_L = E if plan.settings.light_falloff else E * _of_one_metre(distance, plan.world.frame.scale)
         lit = plan.split_light(plan, rays, surface, reflection, wi)
-        film.add(plan, lit, every, rays.beta * ambient * I_L, light, rays.depth + 1)
+        L = plan.lit_lobes(plan, surface, reflection, wi, rays.beta * ambient * I_L, light)
+        film.add(plan, lit, every, L, light, rays.depth + 1)
         L = rays.beta * reflection.illuminate(surface.ns, surface.wo, wi) * I_L
         arriving(plan, rays, surface, reflection, wi, distance, reflection.cosine(surface, wi), L, light, film)
 

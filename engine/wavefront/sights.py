@@ -62,7 +62,8 @@ def lit_lobes(plan, surface, reflection, wi, L, light):
     if lit.all():
         return L
     diffuse, glossy = shares(surface, reflection, wi)
-    return L * (diffuse * lit[0] + glossy * lit[1] + (1 - diffuse - glossy) * lit[2])
+    # To the bit what it is where nothing is hidden, whatever else is in the batch.
+    return np.where(lit.all(axis=0), L, L * (diffuse * lit[0] + glossy * lit[1] + (1 - diffuse - glossy) * lit[2]))
 
 
 def stay_of_kind(plan, rays, surface, reflection, scattered):

@@ -62,12 +62,12 @@ class ByCosine:
         return self.kind(lobes[: self.rough], lobes[self.rough :], thresholds_of(shares), shares)
 
 
-def tabulated(materials, sharing=()):
+def tabulated(materials, around=()):
     """The `ByCosine` of `Materials`, None where there is nothing to tabulate, and the materials without the textures of that.
 
-    `sharing` are the rows of bodies that share space: what their boundaries do depends on the media that really meet there.
+    `around` are the rows of those that depend on the media which really meet at a boundary, where these are not known.
     """
-    rows = [row for row in materials.textured if row not in sharing and _is_isotropic(materials, row)]
+    rows = [row for row in materials.textured if row not in around and _is_isotropic(materials, row)]
     found = {row: table for row in rows if (table := _table(materials, row))}
     if not found:
         return None, materials

@@ -6,6 +6,7 @@ import numpy as np
 
 from ..errors import AccelError, SceneError
 from ..maths.vectors import cross, dot, length
+from ..scene.textured import asks_for_around
 from ..scene.values import Material
 from .accel import Accel
 from .attributes import compile_attributes
@@ -134,8 +135,9 @@ def compile_world(
     """
     materials, row = _number_materials(scene)
     bodies = Bodies.of(scene.objects) if has_media else None
-    sharing = {row[m] for o, layer in zip(scene.objects, bodies.layer) if layer for m in o.materials} if has_media else ()
-    by_cosine, table = tabulated(Materials.of(materials, bsdfs, () if disperses else ("spread",)), sharing)
+    # What is no body may lie in one, too.
+    around = {row[m] for m in materials if has_media and bodies.layer.any() and asks_for_around(m)}
+    by_cosine, table = tabulated(Materials.of(materials, bsdfs, () if disperses else ("spread",)), around)
     still = place([(i, o) for i, o in enumerate(scene.objects) if o.is_still or not motion_steps], row, smooth)
     changing = [(i, o) for i, o in enumerate(scene.objects) if motion_steps and o.mesh.triangles.size and not o.is_still]
     moving = [Moving.of(i, o, row, smooth, motion_steps) for i, o in changing]

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from glanz.engine import Coordinates, LinearTexture, Mist, PerspectiveCamera, SceneError, render_image
+from glanz.engine import Coordinates, Lambert, LinearTexture, Material, Mist, PerspectiveCamera, SceneError, World, render_image
 from glanz.engine.interfaces import Pass
 from glanz.engine.maths.warps import square_to_uniform_hemisphere
 from glanz.engine.passes import ambient_occlusion
@@ -205,8 +205,9 @@ def test_aovs_are_what_materials_say_where_they_are_met():
     assert not (place[:, 1].any() or heat[:, 1].any() or none.any())
 
 
-def test_aovs_that_are_none_are_refused():
-    wrong = h.scene([h.thing(h.quad(), h.replaced(h.lambert(), aovs=(("heat", (1, 2)),)))])
+@pytest.mark.parametrize("value", [(1, 2), "warm", None], ids=str)
+def test_aovs_that_are_none_are_refused(value):
+    wrong = h.scene([h.thing(h.quad(), h.replaced(h.lambert(), aovs=(("heat", value),)))])
     with pytest.raises(SceneError, match="material 'diffuse': its AOV"):
         render_image(wrong, h.settings())
 
@@ -250,3 +251,13 @@ def test_vectors_are_pixels_from_frame_to_frame():
 def test_matrices_beside_are_two():
     with pytest.raises(SceneError, match="object 'quad': beside are 3 matrices"):
         h.replaced(h.thing(h.quad()), beside=np.zeros((3, 4, 4)))
+
+
+@pytest.mark.parametrize("integrator", ["path", "path_blind"])
+def test_what_is_not_there_occludes_nothing(integrator):
+    """A ceiling of alpha 0, also for integrators that send no shadow rays of their own."""
+    floor = h.thing(h.quad((0, 0, 0), (40, 0, 0), (0, 40, 0)), h.lambert(0.5))
+    ceiling = h.thing(h.quad((0, 0, 3), (40, 0, 0), (0, 40, 0)), Material(name="clear", lobes=(Lambert(),), alpha=0.0))
+    camera = PerspectiveCamera.look_at((0, 0, 2), (0, 0, 0), up=(0, 1, 0), fov=0.2)
+    scene = h.scene([floor, ceiling], camera=camera)
+    assert (passes_of(h.replaced(scene, world=World(occlusion_distance=100.0)), integrator=integrator)["Ambient Occlusion"] == 1).all()

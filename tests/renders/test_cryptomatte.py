@@ -93,3 +93,17 @@ def test_names_of_levels():
     assert "CryptoMaterial" not in PASSES
     with pytest.raises(KeyError, match=r"known: .*CryptoObject00"):
         PASSES["CryptoThing00"]
+
+
+def test_what_fills_a_pixel_covers_it_under_a_filter_with_negative_lobes_too():
+    """Samples of those take away; to 1e-6."""
+    scene = strips(1.0)
+    closer = h.replaced(scene, camera=PerspectiveCamera.look_at((0, 0, 100), (0, 0, 0), up=(0, 1, 0), fov=0.001))
+    found = covered(closer, pixel_filter="mitchell", filter_width=2.0, samples=64)
+    assert found[0][1] == pytest.approx(1, abs=1e-6)
+
+
+def test_a_level_that_is_no_number_of_ours_is_unknown():
+    """Digits of other scripts: the name would be another one."""
+    with pytest.raises(KeyError, match="unknown pass"):
+        PASSES["CryptoObject\u0663\u0663"]

@@ -17,6 +17,7 @@ from glanz.engine import (
     Requirements,
     RoughRefraction,
     needs,
+    render_image,
     rendering,
 )
 from glanz.engine.wavefront import continuation, direct, media
@@ -164,3 +165,23 @@ def test_how_the_work_is_cut_changes_no_bit_of_rough_media(monkeypatch):
     assert h.same_bits(h.pixels(scene, h.replaced(settings, threads=2, tile_size=5)), reference)
     monkeypatch.setattr(rendering, "LANES", 37)
     assert h.same_bits(h.pixels(scene, settings), reference)
+
+
+def test_what_lies_in_water_reflects_as_in_water():
+    """An opaque coat, which is no body itself: with a table of all its angles as without."""
+    coat = GgxAlbedo(0.3, RelativeIndex(1.5), kind="dielectric")
+    opaque = Material(name="coat", lobes=(Gloss(coat, 60.0),))
+    water, cup = (Material(name=name, lobes=(Dielectric(ior),)) for name, ior in (("water", 1.33), ("cup", 1.5)))
+    balls = [(0.5, opaque), (1.0, water), (1.1, cup)]
+    things = [h.thing(h.icosphere(2, smooth=True), m, h.affine(r * np.eye(3))) for r, m in balls]
+    scene = h.scene(things, camera=PerspectiveCamera.look_at((0, -0.8, 0), (0, 0, 0), fov=0.6), world=1.0)
+
+    def colour():
+        settings = h.settings(samples=1, passes=("Glossy Color",), max_depth=1)
+        return render_image(scene, settings).passes["Glossy Color"].mean()
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(compile, "tabulated", lambda materials, around: (None, materials))
+        expected = colour()
+    assert colour() == pytest.approx(expected, rel=1e-4)
+    assert expected < 0.03, "in air it would reflect 4 % and more"

@@ -1,5 +1,7 @@
 """What is hidden from a kind of rays is not there for them, and for no others; what is held out the camera sees as clear and black."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -215,3 +217,28 @@ def test_the_closed_forms_catch_holdouts_that_scattered_rays_see(monkeypatch):
     monkeypatch.setattr(holdouts, "getattr", lambda *_: True, raising=False)
     with pytest.raises(AssertionError):
         test_only_the_camera_knows_what_is_held_out()
+
+
+def test_direct_light_does_not_depend_on_what_else_is_in_the_batch():
+    """To the bit: lanes of lights that nothing is hidden from, beside others and alone."""
+    rng = np.random.default_rng(3)
+    shared = rng.random((2, 3, 64), np.float32)
+    L = rng.random((3, 64), np.float32)
+    plan = SimpleNamespace(world=SimpleNamespace(sights=SimpleNamespace(lit=np.array([[1, 1]] * 2 + [[1, 0]] + [[1, 1]] * 2, np.float32))))
+    light = np.arange(64) % 2
+
+    def lit(lanes):
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(sights, "shares", lambda surface, reflection, wi: shared[..., lanes] / 2)
+            return sights.lit_lobes(plan, None, None, None, L[:, lanes], light[lanes])
+
+    open_lanes = np.nonzero(light == 0)[0]
+    assert h.same_bits(lit(np.arange(64))[:, open_lanes], lit(open_lanes))
+
+
+def test_ambient_light_of_what_is_hidden_is_hidden():
+    floor = Material(name="floor", lobes=(Lambert(HALF),), ambient=HALF)
+    for kinds, is_lit in (((), True), (RAY_KINDS, False)):
+        bulb = h.replaced(BULB, hidden_from=tuple(kinds))
+        scene = h.scene([h.thing(h.quad((0, 0, 0), (4, 0, 0), (0, 4, 0)), floor)], [bulb])
+        assert (h.pixels(scene, h.settings(integrator="whitted_phong"))[1].max() > 0) == is_lit
