@@ -161,5 +161,7 @@ def test_ctrl_c_stops_a_render_through_blender(folder):
         process.stderr.readline()
         process.send_signal(signal.SIGINT)
         rest = process.stderr.read()
-    assert (process.returncode, rest) == (130, "glanz: stopped by SIGINT\n")
+    assert process.returncode == 130
+    # A line of progress may come between.
+    assert rest.splitlines()[-1] == "glanz: stopped by SIGINT"
     assert not list(folder.glob("*never*"))
