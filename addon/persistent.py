@@ -19,8 +19,8 @@ class Plans:
 
     def render(self, key, scene, settings, ends=()):
         """As the engine's `render`; nothing is compiled where `scene` differs from the last with this `key` in its camera alone."""
-        plan, told = self._known.get(key, (None, ()))
-        if plan and _film_aside(plan.settings) == _film_aside(settings) and is_same(_camera_aside(plan.scene), _camera_aside(scene)):
+        plan, told, before = self._known.get(key, (None, (), None))
+        if plan and _film_aside(plan.settings) == _film_aside(settings) and is_same(_camera_aside(before), _camera_aside(scene)):
             yield Progress(0.0, warnings=told)
             plan = plan.seen_from(scene.camera, settings)
             # Far from where the first camera was, single precision asks for a render space of its own.
@@ -32,7 +32,7 @@ class Plans:
             yield Progress(0.0)
             plan, told = prepare(scene, settings)
             yield Progress(0.0, warnings=told)
-        self._known[key] = plan, told
+        self._known[key] = plan, told, scene
         yield from render_plan(plan, ends)
 
 
