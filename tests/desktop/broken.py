@@ -33,9 +33,14 @@ def main():
         raise AssertionError("a render without Embree was no error")
     # What F12 shows to a user: the text in the status bar, once something happens.
     editor.type = "VIEW_3D"
-    render = ui.start_render("NONE")
-    yield lambda: render.done
-    assert render.cancelled
+    try:
+        render = ui.start_render("NONE")
+    except RuntimeError as error:
+        # On a fast machine the render has failed before the operator is through, which then says so itself.
+        assert "Glanz cannot render: its library embreex cannot be loaded" in str(error), error
+    else:
+        yield lambda: render.done
+        assert render.cancelled
     ui.move()
     yield 0.5
     ui.shot("f12")
