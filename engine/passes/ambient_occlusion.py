@@ -7,20 +7,17 @@ from ..maths.vectors import dot
 from ..maths.warps import square_to_cosine_hemisphere
 from ..wavefront.numbers import Dimension
 from ..wavefront.passing import opacity
+from ..wavefront.recording import FirstHit
 from . import registry
 
 
 @registry.add
-class AmbientOcclusion:
+class AmbientOcclusion(FirstHit):
     """The share of a dull surface's surroundings that nothing hides within `World.occlusion_distance`, averaged; 0 where nothing is."""
 
     key = "Ambient Occlusion"
     label = "Ambient Occlusion"
     channels = "RGB"
-    records = "first hit"
-    reduction = "mean"
-    divided_by = ""
-    background = 0.0
     sends_shadow_rays = True
 
     @staticmethod

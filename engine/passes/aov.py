@@ -5,23 +5,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..wavefront.recording import FirstHit
 from ..wavefront.texturing import points_of
 from . import registry
 
 
 @registry.add_family
 @dataclass(frozen=True)
-class Aov:
+class Aov(FirstHit):
     """What `Material.aovs` have under a name, where camera rays hit, averaged; 0, and not there, where materials have none.
 
     kind  "Color": red, green, blue, and the share of the pixel that has any; "Value": a number
     """
 
     pattern = "AOV Color <name>, AOV Value <name>"
-    records = "first hit"
-    reduction = "mean"
-    divided_by = ""
-    background = 0.0
 
     kind: str
     name: str

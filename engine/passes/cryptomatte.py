@@ -8,6 +8,7 @@ import numpy as np
 
 from ..maths.murmur import id_bits, id_of
 from ..wavefront.passing import opacity
+from ..wavefront.recording import FirstHit
 from . import registry
 
 _NAMES = {
@@ -19,7 +20,7 @@ _NAMES = {
 
 @registry.add_family
 @dataclass(frozen=True)
-class Cryptomatte:
+class Cryptomatte(FirstHit):
     """Two of the objects, materials or assets that cover most of a pixel: the number of each name, and its share of the pixel.
 
     A transparent surface covers what it does not let pass. Where pixels are divided, the shares are those of whole pixels.
@@ -30,11 +31,8 @@ class Cryptomatte:
 
     pattern = "CryptoObject00, CryptoMaterial00, CryptoAsset00 and so on"
     channels = "rgba"
-    records = "first hit"
     rows = 2
     reduction = "ranks"
-    divided_by = ""
-    background = 0.0
 
     kind: str
     level: int

@@ -2,25 +2,23 @@
 
 import numpy as np
 
-from ..wavefront.splitting import DIFFUSE, GLOSSY, TRANSMITTED, colour
+from ..wavefront.recording import FirstHit
+from ..wavefront.splitting import KINDS, colour
 from . import registry
 
 
 @registry.add
-class DenoisingAlbedo:
+class DenoisingAlbedo(FirstHit):
     """The share of light that all lobes together send on, where camera rays hit, and what shines straight into the camera; averaged."""
 
     key = "Denoising Albedo"
     label = "Denoising Albedo"
     channels = "RGB"
     records = "first hit and light"
-    reduction = "mean"
-    divided_by = ""
-    background = 0.0
 
     @staticmethod
     def values(plan, rays, surface, reflection):
-        return sum(colour(reflection, surface, kind) for kind in (DIFFUSE, GLOSSY, TRANSMITTED))
+        return sum(colour(reflection, surface, kind) for kind in KINDS.values())
 
     @staticmethod
     def part(plan, rays, lanes, L, light, bounces):
@@ -28,16 +26,12 @@ class DenoisingAlbedo:
 
 
 @registry.add
-class DenoisingNormal:
+class DenoisingNormal(FirstHit):
     """The shading normal in the frame of the camera, which looks along +z, on the viewer's side, averaged; 0 where nothing is met."""
 
     key = "Denoising Normal"
     label = "Denoising Normal"
     channels = "XYZ"
-    records = "first hit"
-    reduction = "mean"
-    divided_by = ""
-    background = 0.0
 
     @staticmethod
     def values(plan, rays, surface, reflection):
@@ -45,16 +39,12 @@ class DenoisingNormal:
 
 
 @registry.add
-class DenoisingDepth:
+class DenoisingDepth(FirstHit):
     """How far camera rays have come [m], averaged; 0 where nothing is met."""
 
     key = "Denoising Depth"
     label = "Denoising Depth"
     channels = "Z"
-    records = "first hit"
-    reduction = "mean"
-    divided_by = ""
-    background = 0.0
 
     @staticmethod
     def values(plan, rays, surface, reflection):

@@ -1,18 +1,17 @@
 """How far away things are."""
 
+from ..wavefront.recording import FirstHit
 from . import registry
 
 
 @registry.add
-class Depth:
+class Depth(FirstHit):
     """How far away the first sample meets something [m], along the camera's axis; in a panorama along the ray. Else 1e10, as Cycles'."""
 
     key = "Depth"
     label = "Depth"
     channels = "Z"
-    records = "first hit"
     reduction = "first"
-    divided_by = ""
     background = 1e10
 
     @staticmethod

@@ -1,20 +1,17 @@
 """Light that reaches the camera straight from what shines in the scene."""
 
+from ..wavefront.recording import OfLight
 from ..wavefront.splitting import is_of_world
 from . import registry
 
 
 @registry.add
-class Emission:
+class Emission(OfLight):
     """Light of glowing surfaces and of lamps, where the camera sees them [W m^-2 sr^-1]."""
 
     key = "Emission"
     label = "Emission"
     channels = "RGB"
-    records = "light"
-    background = 0.0
-    reduction = "mean"
-    divided_by = ""
 
     @staticmethod
     def part(plan, rays, lanes, L, light, bounces):

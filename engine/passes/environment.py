@@ -1,20 +1,17 @@
 """Light that reaches the camera straight from the world."""
 
+from ..wavefront.recording import OfLight
 from ..wavefront.splitting import is_of_world
 from . import registry
 
 
 @registry.add
-class Environment:
+class Environment(OfLight):
     """Light of the world, where the camera sees it [W m^-2 sr^-1]."""
 
     key = "Environment"
     label = "Environment"
     channels = "RGB"
-    records = "light"
-    background = 0.0
-    reduction = "mean"
-    divided_by = ""
 
     @staticmethod
     def part(plan, rays, lanes, L, light, bounces):

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from ..wavefront.recording import OfLight
 from . import registry
 
 _PREFIX = "Combined_"
@@ -9,15 +10,11 @@ _PREFIX = "Combined_"
 
 @registry.add_family
 @dataclass(frozen=True)
-class LightGroup:
+class LightGroup(OfLight):
     """What lights, glowing objects and a world whose `group` is `name` send to the camera, by whatever way [W m^-2 sr^-1]."""
 
     pattern = f"{_PREFIX}<light group>"
     channels = "RGB"
-    records = "light"
-    reduction = "mean"
-    divided_by = ""
-    background = 0.0
 
     name: str
 

@@ -1,19 +1,17 @@
 """Which materials are seen, by numbers of their own."""
 
+from ..wavefront.recording import FirstHit
 from . import registry
 
 
 @registry.add
-class MaterialIndex:
+class MaterialIndex(FirstHit):
     """The index of the material that the first sample meets; 0 where there is none."""
 
     key = "Material Index"
     label = "Material Index"
     channels = "X"
-    records = "first hit"
     reduction = "first"
-    divided_by = ""
-    background = 0.0
 
     @staticmethod
     def values(plan, rays, surface, reflection):

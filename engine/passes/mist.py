@@ -1,18 +1,16 @@
 """How much of things is lost in the mist."""
 
+from ..wavefront.recording import FirstHit
 from . import registry
 
 
 @registry.add
-class MistShare:
+class MistShare(FirstHit):
     """How much is gone at the distance from the camera, as `Mist` of the world says; averaged over the pixel, 1 where nothing is met."""
 
     key = "Mist"
     label = "Mist"
     channels = "Z"
-    records = "first hit"
-    reduction = "mean"
-    divided_by = ""
     background = 1.0
 
     @staticmethod

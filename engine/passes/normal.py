@@ -1,19 +1,16 @@
 """Which way surfaces face."""
 
+from ..wavefront.recording import FirstHit
 from . import registry
 
 
 @registry.add
-class Normal:
+class Normal(FirstHit):
     """The shading normal in world space, on the viewer's side, averaged; 0 where nothing is met."""
 
     key = "Normal"
     label = "Normal"
     channels = "XYZ"
-    records = "first hit"
-    reduction = "mean"
-    divided_by = ""
-    background = 0.0
 
     @staticmethod
     def values(plan, rays, surface, reflection):

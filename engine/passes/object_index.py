@@ -1,21 +1,19 @@
 """Which objects are seen, by numbers of their own."""
 
+from ..wavefront.recording import FirstHit
 from . import registry
 
 _INDEX = ("value", "index")
 
 
 @registry.add
-class ObjectIndex:
+class ObjectIndex(FirstHit):
     """The value "index" of the object that the first sample meets; 0 where there is none."""
 
     key = "Object Index"
     label = "Object Index"
     channels = "X"
-    records = "first hit"
     reduction = "first"
-    divided_by = ""
-    background = 0.0
     attributes = (_INDEX,)
 
     @staticmethod

@@ -2,20 +2,18 @@
 
 import numpy as np
 
+from ..wavefront.recording import FirstHit
 from . import registry
 
 
 @registry.add
-class Position:
+class Position(FirstHit):
     """Where the first sample meets something, in world space [m]; 0 where nothing is met."""
 
     key = "Position"
     label = "Position"
     channels = "XYZ"
-    records = "first hit"
     reduction = "first"
-    divided_by = ""
-    background = 0.0
 
     @staticmethod
     def values(plan, rays, surface, reflection):

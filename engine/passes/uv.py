@@ -2,22 +2,19 @@
 
 import numpy as np
 
+from ..wavefront.recording import FirstHit
 from . import registry
 
 _UV = ("uv", "")
 
 
 @registry.add
-class Uv:
+class Uv(FirstHit):
     """The texture coordinates of the first layer, and 1 where a mesh has any, averaged; 0 where nothing is met."""
 
     key = "UV"
     label = "UV"
     channels = "UVA"
-    records = "first hit"
-    reduction = "mean"
-    divided_by = ""
-    background = 0.0
     attributes = (_UV,)
 
     @staticmethod

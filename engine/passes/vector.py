@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..wavefront.recording import FirstHit
 from ..world.views import CameraSpace
 from . import registry
 
@@ -11,7 +12,7 @@ _BESIDE = ("before", "after")
 
 
 @registry.add
-class Vector:
+class Vector(FirstHit):
     """How far the first sample's point has come across the picture since the frame before, and will go until the next, reversed [px].
 
     Right and up. 0 where nothing is met. Reversed, as Cycles has it: where the point was, and where it is seen from where it will be.
@@ -20,10 +21,7 @@ class Vector:
     key = "Vector"
     label = "Vector"
     channels = "XYZW"
-    records = "first hit"
     reduction = "first"
-    divided_by = ""
-    background = 0.0
     attributes = (("object", ""), ("world_from_object", ""), *((what, name) for name in _BESIDE for what in ("shift", "change")))
 
     @staticmethod

@@ -14,6 +14,8 @@ from ..maths.vectors import dot
 from .film import BACKGROUND
 
 DIFFUSE, GLOSSY, TRANSMITTED = range(3)
+KINDS = {"Diffuse": DIFFUSE, "Glossy": GLOSSY, "Transmission": TRANSMITTED}
+"""By the names of passes."""
 
 
 def split_light(plan, rays, surface, reflection, wi):
