@@ -72,12 +72,4 @@ class GLANZ_LIGHT_PT_nodes(GlanzPanel, bpy.types.Panel):
 
 _CLASSES = (GLANZ_LIGHT_PT_light, GLANZ_LIGHT_PT_nodes)
 
-
-def register():
-    for panel in _CLASSES:
-        bpy.utils.register_class(panel)
-
-
-def unregister():
-    for panel in reversed(_CLASSES):
-        bpy.utils.unregister_class(panel)
+register, unregister = bpy.utils.register_classes_factory(_CLASSES)

@@ -332,12 +332,4 @@ _CLASSES = (
     GLANZ_VIEWLAYER_PT_override,
 )
 
-
-def register():
-    for panel in _CLASSES:
-        bpy.utils.register_class(panel)
-
-
-def unregister():
-    for panel in reversed(_CLASSES):
-        bpy.utils.unregister_class(panel)
+register, unregister = bpy.utils.register_classes_factory(_CLASSES)

@@ -30,9 +30,4 @@ def paragraph(layout, context, text):
         column.label(text=line, icon="BLANK1" if number else "ERROR", translate=False)
 
 
-def register():
-    bpy.utils.register_class(GlanzPreferences)
-
-
-def unregister():
-    bpy.utils.unregister_class(GlanzPreferences)
+register, unregister = bpy.utils.register_classes_factory((GlanzPreferences,))

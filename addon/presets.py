@@ -103,12 +103,4 @@ class GLANZ_MT_sampling_presets(bpy.types.Menu):
 
 _CLASSES = (GLANZ_OT_sampling_preset, GLANZ_MT_sampling_presets)
 
-
-def register():
-    for each in _CLASSES:
-        bpy.utils.register_class(each)
-
-
-def unregister():
-    for each in reversed(_CLASSES):
-        bpy.utils.unregister_class(each)
+register, unregister = bpy.utils.register_classes_factory(_CLASSES)

@@ -87,12 +87,4 @@ def summary(check):
 
 _CLASSES = (GLANZ_RENDER_PT_requirements, GLANZ_RENDER_PT_differences, GLANZ_RENDER_PT_features)
 
-
-def register():
-    for panel in _CLASSES:
-        bpy.utils.register_class(panel)
-
-
-def unregister():
-    for panel in reversed(_CLASSES):
-        bpy.utils.unregister_class(panel)
+register, unregister = bpy.utils.register_classes_factory(_CLASSES)
