@@ -17,7 +17,6 @@ def as_texture(value):
     return LinearTexture((value,), (1.0,)) if isinstance(value, Coordinates) else value
 
 
-@np.errstate(invalid="ignore", over="ignore")
 def times(a, b):
     """The product of two values, as a colour."""
     if not varies(a) or not varies(b):
@@ -28,7 +27,7 @@ def times(a, b):
 
 def _scaled(value, factor):
     if not varies(value):
-        return _constant(np.multiply(value, factor))
+        return _computed(np.multiply, value, factor)
     if not factor.any():
         return BLACK
     if (factor == 1).all():
@@ -37,11 +36,10 @@ def _scaled(value, factor):
     return LinearTexture(terms.textures, tuple(times(f, factor) for f in terms.factors), times(terms.offset, factor))
 
 
-@np.errstate(invalid="ignore", over="ignore")
 def added(a, b):
     """The sum of two values, as a colour."""
     if not (varies(a) or varies(b)):
-        return _constant(np.broadcast_to(np.add(a, b), 3))
+        return _computed(np.add, a, b)
     for one, other in ((a, b), (b, a)):
         if not varies(one) and not np.any(one):
             return as_texture(other)
@@ -89,3 +87,9 @@ def terms_of(value):
 
 def _constant(colour):
     return tuple(float(c) for c in colour)
+
+
+def _computed(function, a, b):
+    """What may be infinite, or no number, is told once it is known what for."""
+    with np.errstate(invalid="ignore", over="ignore"):
+        return _constant(np.broadcast_to(function(a, b), 3))
