@@ -24,33 +24,26 @@ def pixels_in(image):
     return pixels.reshape(height, width, -1)
 
 
-def pixels_of_file(path, like):
-    """(pixels, is_float) of the image at `path`, read with the settings of the image `like`; None where there is none."""
+def pixels_of_file(path, like, frame=None):
+    """(pixels, is_float) of the image at `path`, read with the settings of the image `like`; None where there is none.
+
+    frame  of a movie, the number of the picture, from 1 on; the first and last are those before and after as well
+    """
     if not os.path.isfile(path):
         return None
     with bpy.data.temp_data() as data:
         image = data.images.load(str(path))
         image.colorspace_settings.name = like.colorspace_settings.name
         image.alpha_mode = like.alpha_mode
+        image.use_deinterlace = like.use_deinterlace
         pixels = pixels_in(image)
+        if frame is not None and pixels is not None:
+            if image.source != "MOVIE":
+                return None
+            # Pixels are those of the picture that was asked for last; scaled to the size that it has it stays as it is.
+            image.scale(*image.size, frame=frame)
+            pixels = pixels_in(image)
         return None if pixels is None else (pixels, image.is_float)
-
-
-def pixels_of_movie(path, frame, like):
-    """The same of a picture of a movie, counted from 1; the first and last are those before and after as well."""
-    if not os.path.isfile(path):
-        return None
-    with bpy.data.temp_data() as data:
-        movie = data.images.load(str(path))
-        movie.colorspace_settings.name = like.colorspace_settings.name
-        movie.alpha_mode = like.alpha_mode
-        movie.use_deinterlace = like.use_deinterlace
-        if movie.source != "MOVIE" or pixels_in(movie) is None:
-            return None
-        # Pixels are those of the picture that was asked for last; scaled to the size that it has it stays as it is.
-        movie.scale(*movie.size, frame=frame)
-        pixels = pixels_in(movie)
-        return None if pixels is None else (pixels, movie.is_float)
 
 
 def pixels_of_data(content, name, like):

@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 
 from .findings import MISSING
-from .image_files import pixels_in, pixels_of_data, pixels_of_file, pixels_of_movie, scene_linear
+from .image_files import pixels_in, pixels_of_data, pixels_of_file, scene_linear
 
 MAGENTA = (1.0, 0.0, 1.0, 1.0)
 """Magenta: what Blender shows for an image that it cannot find."""
@@ -90,7 +90,7 @@ def _read(image, frame):
         return pixels_of_file(_path(image, _numbered(image.filepath, frame)), image)
     # A movie has a colour space when its pixels have been looked at.
     if image.source == "MOVIE" and len(image.pixels):
-        return pixels_of_movie(_path(image, image.filepath), frame, image)
+        return pixels_of_file(_path(image, image.filepath), image, frame)
     pixels = pixels_in(image)
     return None if pixels is None else (pixels, image.is_float)
 
