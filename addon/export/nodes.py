@@ -126,11 +126,9 @@ class Links:
                 self.note("the node group is missing", MISSING)
                 return self, None
             inside = next((n for n in node.node_tree.nodes if n.type == "GROUP_OUTPUT" and n.is_active_output), None)
-            reader = self._elsewhere((*self.groups, node), self.trail)
-            return reader, inside and input_by_identifier(inside, output.identifier)
+            return self.inside(node), inside and input_by_identifier(inside, output.identifier)
         if node.type == "GROUP_INPUT" and self.groups:
-            reader = self._elsewhere(self.groups[:-1], self.trail)
-            return reader, input_by_identifier(self.groups[-1], output.identifier)
+            return self._elsewhere(self.groups[:-1], self.trail), input_by_identifier(self.groups[-1], output.identifier)
         return None
 
     def is_linked(self, node, identifier):
