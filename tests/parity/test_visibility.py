@@ -17,7 +17,7 @@ SAMPLES = 500
 
 
 def cards(*names):
-    """Four glowing or dull cards over a dull floor with a mirror and a pane of glass; those of `names` are as they say."""
+    """Glowing and dull cards over a dull floor with a mirror and a pane of glass; those of `names` are as they say."""
     camera = blender.add_camera(location=(0, -7, 3.5), width=32, height=32)
     camera.rotation_euler = (1.15, 0, 0)
     blender.set_world((0.3, 0.4, 0.5))

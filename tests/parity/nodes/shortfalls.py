@@ -4,17 +4,17 @@ _POLES = "where it divides by next to nothing: both engines look at places that 
 _ROUNDED = "; and, from Blender 5.0 on, Cycles rounds the remainders of vectors a million times as long as what they are divided by"
 
 NODES = {
-    "ShaderNodeMath": (_POLES, lambda case: case.properties.get("operation") in ("DIVIDE", "SNAP")),
-    "ShaderNodeVectorMath": (_POLES + _ROUNDED, lambda case: case.properties.get("operation") in ("DIVIDE", "SNAP", "MODULO", "WRAP")),
+    "ShaderNodeMath": (_POLES, lambda case: case.properties.get("operation") == "DIVIDE"),
+    "ShaderNodeVectorMath": (_POLES + _ROUNDED, lambda case: case.properties.get("operation") in ("DIVIDE", "MODULO")),
     "ShaderNodeMapRange": (_POLES, lambda case: case.properties.get("interpolation_type") in ("LINEAR", "STEPPED")),
 }
-"""{node type: (reason, condition (case) or None for all cases)}."""
+"""{node type: (reason, condition (case))}."""
 
 
 def excuse(case):
     """The reason why a case may differ, or None."""
     reason, applies = NODES.get(case.kind, (None, None))
-    return reason if reason and (applies is None or applies(case)) else None
+    return reason if reason and applies(case) else None
 
 
 def bar(kind):
