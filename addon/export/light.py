@@ -21,6 +21,8 @@ LIGHTS_ARE_OBJECTS = (4, 5)
 """The Blender from which on lights of Cycles have a frame and values as objects have."""
 SMALLEST_SPREAD = math.radians(0.1)
 """Blender allows a spread of 0, which no light has."""
+_ENDLESS = 1024
+"""The Max Bounces of lights in Cycles unless they are limited."""
 _ROUND = ("DISK", "ELLIPSE")
 _SCATTERED = ("diffuse", "glossy", "transmission")
 
@@ -97,6 +99,8 @@ def note_ignored(light_object, light, name, findings):
     """Note what Blender can ask of a light and Glanz does not do."""
     if not getattr(light, "use_shadow", True):
         findings.note("the light casts shadows although they are switched off", name, IGNORED)
+    if getattr(getattr(light, "cycles", None), "max_bounces", _ENDLESS) < _ENDLESS:
+        findings.note("its Max Bounces are ignored, it shines however often light has bounced", name, IGNORED)
     linking = getattr(light_object, "light_linking", None)
     if linking and (linking.receiver_collection or linking.blocker_collection):
         findings.note("light linking is ignored, the light reaches everything", name, IGNORED)

@@ -169,6 +169,11 @@ def _top(ob):
     return ob
 
 
+def _terminator_offset(ob):
+    # Cycles stores it before Blender 4.5, where it is enabled.
+    return getattr(ob, "shadow_terminator_shading_offset", getattr(getattr(ob, "cycles", None), "shadow_terminator_offset", 0.0))
+
+
 class _Parts:
     """Meshes and materials, exported when first met."""
 
@@ -237,6 +242,8 @@ class _Parts:
         name = f"object '{ob.name}'"
         if ob.is_shadow_catcher:
             self._findings.note("shadow catchers are rendered as ordinary objects", name, IGNORED)
+        if _terminator_offset(ob) > 0:
+            self._findings.note("the Shading Offset of its Shadow Terminator is ignored", name, IGNORED)
         for system in ob.particle_systems:
             if system.settings.type == "HAIR" and system.settings.render_type == "PATH":
                 self._findings.note("hair particles are not rendered", name, IGNORED)

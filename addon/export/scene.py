@@ -94,7 +94,7 @@ def _contents(depsgraph, findings, kept, check=lambda: None, tracks=STILL, is_sh
     layer, bitmaps = depsgraph.view_layer_eval, kept.bitmaps(depsgraph.scene_eval.frame_current)
     override = _evaluated(layer.material_override, depsgraph)
     world = _evaluated(getattr(layer, "world_override", None) or depsgraph.scene_eval.world, depsgraph)
-    world = export_world(world, findings, bitmaps)
+    world = export_world(world, findings, bitmaps, asked.get("aovs", ()))
     # Last, for to see what moves Blender has to leave the frame.
     objects, lights = export_objects(depsgraph, findings, bitmaps, override, check, tracks, kept, is_shown, **asked)
     return {"objects": objects, "lights": lights, "world": world}
@@ -120,7 +120,10 @@ def _evaluated(datablock, depsgraph):
 
 _NOT_FOLLOWED = {
     "the film is not transparent behind glass, the world is seen through it": lambda scene: (
-        scene.render.film_transparent and getattr(getattr(scene, "cycles", None), "film_transparent_glass", False)
+        scene.render.film_transparent and _is_on_in_cycles(scene, "film_transparent_glass")
+    ),
+    "nothing is culled, what is far away or out of the picture is there": lambda scene: (
+        scene.render.use_simplify and any(_is_on_in_cycles(scene, f"use_{kind}_cull") for kind in ("camera", "distance"))
     ),
     "freestyle lines are not rendered": lambda scene: scene.render.use_freestyle,
     "spherical stereo is not rendered, each eye stays where it is": lambda scene: (
@@ -128,6 +131,10 @@ _NOT_FOLLOWED = {
     ),
 }
 """What to note -> whether a scene (evaluated) asks for it."""
+
+
+def _is_on_in_cycles(scene, setting):
+    return getattr(getattr(scene, "cycles", None), setting, False)
 
 
 def _note_ignored(scene, findings):

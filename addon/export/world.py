@@ -7,15 +7,19 @@ from .environment import as_picture
 from .findings import IGNORED
 from .material import clean_colour
 from .missing import note_missing
-from .nodes import has_nodes, output_node
+from .nodes import aov_nodes, has_nodes, output_node
 from .shaders import surface_of
 from .values import Reader
 
 
-def export_world(world, findings, bitmaps):
-    """The engine's `World` for a world (evaluated), its images by `bitmaps`; none is black."""
+def export_world(world, findings, bitmaps, aovs=()):
+    """The engine's `World` for a world (evaluated), its images by `bitmaps`; none is black.
+
+    aovs  the names of those that passes show, of which a world has none
+    """
     if world is None:
         return World()
+    _note_aovs(world, findings, {name for _, name in aovs})
     # Cycles stores them, where it is enabled.
     own, mist = getattr(world, "cycles_visibility", None), world.mist_settings
     return replace(
@@ -25,6 +29,12 @@ def export_world(world, findings, bitmaps):
         occlusion_distance=world.light_settings.distance,
         hidden_from=tuple(kind for kind in RAY_KINDS[:-1] if not getattr(own, kind, True)),
     )
+
+
+def _note_aovs(world, findings, names):
+    owner = f"world '{world.name}'"
+    if names and has_nodes(world) and any(node.aov_name in names for _, node in aov_nodes(Reader(owner, findings), world.node_tree)):
+        findings.note("its AOVs are left out, they are 0 where the world is seen", owner, IGNORED)
 
 
 def _surroundings(world, findings, bitmaps):

@@ -206,3 +206,8 @@ def test_a_light_that_is_nowhere_is_named_and_left_out():
 def test_switched_off_shadows_are_named():
     _light("POINT", use_shadow=False)
     assert "light 'Light'" in blender.export()[1][0]
+
+
+def test_a_limit_of_bounces_is_named():
+    _light("POINT")[1].cycles.max_bounces = 1023
+    assert blender.export()[1] == ("its Max Bounces are ignored, it shines however often light has bounced: light 'Light'",)

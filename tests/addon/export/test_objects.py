@@ -191,6 +191,9 @@ def test_ignored_flags_are_named():
     ob = blender.add_plane()
     ob.is_shadow_catcher = True
     assert blender.export()[1] == ("shadow catchers are rendered as ordinary objects: object 'Plane'",)
+    ob.is_shadow_catcher = False
+    setattr(*((ob, "shadow_terminator_shading_offset") if bpy.app.version >= (4, 5) else (ob.cycles, "shadow_terminator_offset")), 0.5)
+    assert blender.export()[1] == ("the Shading Offset of its Shadow Terminator is ignored: object 'Plane'",)
 
 
 def test_a_material_override_replaces_all_materials():

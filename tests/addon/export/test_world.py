@@ -162,3 +162,23 @@ def test_a_film_that_is_clear_behind_glass_is_named_where_it_would_be():
     assert blender.export()[1] == ()
     scene.render.film_transparent = True
     assert blender.export()[1] == ("the film is not transparent behind glass, the world is seen through it: scene 'Scene'",)
+
+
+@pytest.mark.parametrize("kind", ["camera", "distance"])
+def test_culling_is_named_where_it_would_be_done(kind):
+    scene = bpy.context.scene
+    setattr(scene.cycles, f"use_{kind}_cull", True)
+    assert blender.export()[1] == ()
+    scene.render.use_simplify = True
+    (warning,) = blender.export()[1]
+    assert "culled" in warning and "scene 'Scene'" in warning
+
+
+def test_aovs_of_a_world_are_named_where_a_pass_shows_them():
+    tree = blender.set_world((1, 1, 1)).node_tree
+    tree.nodes.new("ShaderNodeOutputAOV").aov_name = "Heat"
+    layer = bpy.context.view_layer
+    layer.aovs.add().name = "Other"
+    assert blender.export()[1] == ()
+    layer.aovs.add().name = "Heat"
+    assert blender.export()[1] == ("its AOVs are left out, they are 0 where the world is seen: world 'World'",)

@@ -34,7 +34,7 @@ ELSEWHERE = {
     "ShaderNodeOutputWorld": "an output",
     "ShaderNodeOutputLight": "an output",
     "ShaderNodeOutputLineStyle": "an output",
-    "ShaderNodeOutputAOV": "an output",
+    "ShaderNodeOutputAOV": "an output; of materials, compared as a pass",
     "ShaderNodeScript": "Open Shading Language is not read: it would run code of the file",
     "ShaderNodeTexPointDensity": "needs particles as voxels; gone in Blender 5",
     "ShaderNodeTexIES": "of lights, where it is as in Cycles: LM-63 of types A, B and C; a file that cannot be read is named, and even",
