@@ -17,10 +17,7 @@ class GLANZ_LIGHT_PT_light(GlanzPanel, bpy.types.Panel):
 
     bl_label = "Light"
     bl_context = "data"
-
-    @classmethod
-    def poll(cls, context):
-        return super().poll(context) and context.light is not None
+    about = "light"
 
     def draw(self, context):
         light = context.light
@@ -50,10 +47,7 @@ class GLANZ_LIGHT_PT_nodes(GlanzPanel, bpy.types.Panel):
     bl_label = "Nodes"
     bl_context = "data"
     bl_options = frozenset({"DEFAULT_CLOSED"})
-
-    @classmethod
-    def poll(cls, context):
-        return super().poll(context) and context.light is not None
+    about = "light"
 
     def draw(self, context):
         light = context.light

@@ -7,16 +7,20 @@ from .preferences import paragraph
 
 
 class GlanzPanel:
-    """Shared by all panels: where they are, and that they belong to Glanz."""
+    """Shared by all panels: where they are, and that they belong to Glanz.
+
+    about  the member of the context that a panel is about, which is shown only where there is one; empty: none
+    """
 
     bl_space_type = "PROPERTIES"
     bl_region_type = "WINDOW"
     bl_context = "render"
     COMPAT_ENGINES = frozenset({"GLANZ"})
+    about = ""
 
     @classmethod
     def poll(cls, context):
-        return context.engine in cls.COMPAT_ENGINES
+        return context.engine in cls.COMPAT_ENGINES and not (cls.about and getattr(context, cls.about) is None)
 
     def column(self):
         """A column of the layout in Blender's usual style: names left, values right."""
@@ -30,10 +34,11 @@ class GLANZ_CAMERA_PT_panorama(GlanzPanel, bpy.types.Panel):
 
     bl_label = "Panorama"
     bl_context = "data"
+    about = "camera"
 
     @classmethod
     def poll(cls, context):
-        return super().poll(context) and context.camera is not None and context.camera.type == "PANO"
+        return super().poll(context) and context.camera.type == "PANO"
 
     def draw(self, context):
         camera = context.camera
@@ -152,13 +157,13 @@ class GLANZ_OBJECT_PT_motion_blur(GlanzPanel, bpy.types.Panel):
     """What Cycles stores with each object; Blender shows it for Cycles only."""
 
     bl_label = "Motion Blur"
-    bl_context = "object"
+    bl_context = about = "object"
     bl_options = frozenset({"DEFAULT_CLOSED"})
 
     @classmethod
     def poll(cls, context):
-        is_rendered = context.object is not None and context.object.type in _BLURRED
-        return super().poll(context) and is_rendered and hasattr(getattr(context.object, "cycles", None), "use_motion_blur")
+        is_blurred = super().poll(context) and context.object.type in _BLURRED
+        return is_blurred and hasattr(getattr(context.object, "cycles", None), "use_motion_blur")
 
     def draw_header(self, context):
         self.layout.active = context.scene.render.use_motion_blur
@@ -180,12 +185,12 @@ class GLANZ_OBJECT_PT_ray_visibility(GlanzPanel, bpy.types.Panel):
     """Blender shows these for Cycles only."""
 
     bl_label = "Ray Visibility"
-    bl_context = "object"
+    bl_context = about = "object"
     bl_options = frozenset({"DEFAULT_CLOSED"})
 
     @classmethod
     def poll(cls, context):
-        return super().poll(context) and context.object is not None and context.object.type in _SEEN
+        return super().poll(context) and context.object.type in _SEEN
 
     def draw(self, context):
         column, is_light = self.column(), context.object.type == "LIGHT"
@@ -202,7 +207,7 @@ class GLANZ_WORLD_PT_ray_visibility(GlanzPanel, bpy.types.Panel):
     """What Cycles stores with each world; Blender shows it for Cycles only."""
 
     bl_label = "Ray Visibility"
-    bl_context = "world"
+    bl_context = about = "world"
     bl_options = frozenset({"DEFAULT_CLOSED"})
 
     @classmethod
@@ -257,12 +262,8 @@ class GLANZ_WORLD_PT_preview(GlanzPanel, bpy.types.Panel):
     """Blender has one for Cycles only."""
 
     bl_label = "Preview"
-    bl_context = "world"
+    bl_context = about = "world"
     bl_options = frozenset({"DEFAULT_CLOSED"})
-
-    @classmethod
-    def poll(cls, context):
-        return super().poll(context) and context.world is not None
 
     def draw(self, context):
         self.layout.template_preview(context.world)
@@ -272,11 +273,7 @@ class GLANZ_MATERIAL_PT_lecture(GlanzPanel, bpy.types.Panel):
     """The lecture's parameters, in place of the material's nodes."""
 
     bl_label = "Lecture Material"
-    bl_context = "material"
-
-    @classmethod
-    def poll(cls, context):
-        return super().poll(context) and context.material is not None
+    bl_context = about = "material"
 
     def draw_header(self, context):
         self.layout.prop(context.material.glanz, "use_lecture", text="")
@@ -300,12 +297,8 @@ class GLANZ_MATERIAL_PT_medium(GlanzPanel, bpy.types.Panel):
     """What is inside of objects that wear the material, beside the volume of its nodes."""
 
     bl_label = "Medium"
-    bl_context = "material"
+    bl_context = about = "material"
     bl_options = frozenset({"DEFAULT_CLOSED"})
-
-    @classmethod
-    def poll(cls, context):
-        return super().poll(context) and context.material is not None
 
     def draw(self, context):
         column = self.column()

@@ -48,12 +48,8 @@ class _InPasses(GlanzPanel):
     bl_label = "In Passes"
     bl_options = frozenset({"DEFAULT_CLOSED"})
 
-    @classmethod
-    def poll(cls, context):
-        return super().poll(context) and getattr(context, cls.bl_context) is not None
-
     def draw(self, context):
-        column, owner = self.column(), getattr(context, self.bl_context)
+        column, owner = self.column(), getattr(context, self.about)
         if hasattr(owner, "pass_index"):
             column.prop(owner, "pass_index")
         if hasattr(owner, "lightgroup"):
@@ -65,15 +61,15 @@ class _InPasses(GlanzPanel):
 
 
 class GLANZ_OBJECT_PT_in_passes(_InPasses, bpy.types.Panel):
-    bl_context = "object"
+    bl_context = about = "object"
 
 
 class GLANZ_MATERIAL_PT_in_passes(_InPasses, bpy.types.Panel):
-    bl_context = "material"
+    bl_context = about = "material"
 
 
 class GLANZ_WORLD_PT_in_passes(_InPasses, bpy.types.Panel):
-    bl_context = "world"
+    bl_context = about = "world"
 
 
 _CLASSES = (

@@ -54,17 +54,17 @@ def _context(ob=None):
     camera = ob.data if ob and ob.type == "CAMERA" else None
     layer = bpy.context.view_layer
     region = {"region": SimpleNamespace(width=400), "preferences": bpy.context.preferences}
-    shown = region | {"light": light, "camera": camera, "material": getattr(ob, "active_material", None)}
+    shown = region | {"light": light, "camera": camera, "material": getattr(ob, "active_material", None), "world": scene.world}
     return SimpleNamespace(engine=scene.render.engine, scene=scene, view_layer=layer, object=ob, **shown)
 
 
 def _drawn(name, ob=None):
     """What the panel draws; it is polled first."""
-    context = _context(ob)
-    assert OWN[name].poll(context)
-    panel = SimpleNamespace(layout=Layout())
+    context, kind = _context(ob), OWN[name]
+    assert kind.poll(context)
+    panel = SimpleNamespace(layout=Layout(), **{a: getattr(kind, a) for a in ("list_type", "what", "about") if hasattr(kind, a)})
     panel.column = lambda: panels.GlanzPanel.column(panel)
-    OWN[name].draw(panel, context)
+    kind.draw(panel, context)
     return panel.layout.drawn
 
 
@@ -105,9 +105,9 @@ def test_passes_are_drawn():
 
 def test_what_passes_are_made_of_is_drawn():
     assert _drawn("GLANZ_VIEWLAYER_PT_cryptomatte")[-1] == "pass_cryptomatte_depth"
-    world, ob = blender.set_world((1, 1, 1)), blender.add_plane()
+    blender.set_world((1, 1, 1))
+    ob = blender.add_plane()
     ob.data.materials.append(bpy.data.materials.new("A"))
-    shown = SimpleNamespace(**vars(_context(ob)), world=world)
     for name, expected in (
         ("GLANZ_OBJECT_PT_in_passes", ["pass_index", "lightgroup"]),
         ("GLANZ_MATERIAL_PT_in_passes", ["pass_index"]),
@@ -118,12 +118,24 @@ def test_what_passes_are_made_of_is_drawn():
             ["lightgroups", "active_lightgroup_index", "scene.view_layer_add_lightgroup", "scene.view_layer_remove_lightgroup"],
         ),
     ):
-        kind = OWN[name]
-        assert kind.poll(shown)
-        panel = SimpleNamespace(layout=Layout(), **{a: getattr(kind, a) for a in ("list_type", "what", "bl_context") if hasattr(kind, a)})
-        panel.column = lambda panel=panel: panels.GlanzPanel.column(panel)
-        kind.draw(panel, shown)
-        assert panel.layout.drawn == expected
+        assert _drawn(name, ob) == expected
+
+
+def test_which_rays_see_what_can_be_edited():
+    kinds = ["camera", "diffuse", "glossy", "transmission"]
+    of_objects = [f"visible_{kind}" for kind in kinds]
+    assert _drawn("GLANZ_OBJECT_PT_ray_visibility", blender.add_plane()) == [*of_objects, "visible_shadow", "is_holdout"]
+    lamp = blender.link("Light", bpy.data.lights.new("Light", "POINT"))
+    assert _drawn("GLANZ_OBJECT_PT_ray_visibility", lamp) == of_objects
+    assert not OWN["GLANZ_OBJECT_PT_ray_visibility"].poll(_context(blender.add_camera()))
+    assert not OWN["GLANZ_WORLD_PT_ray_visibility"].poll(_context())
+    blender.set_world((1, 1, 1))
+    assert _drawn("GLANZ_WORLD_PT_ray_visibility") == kinds
+
+
+@pytest.mark.parametrize("name", [name for name, panel in OWN.items() if panel.about])
+def test_panels_hide_where_there_is_nothing_that_they_are_about(name):
+    assert not OWN[name].poll(_context())
 
 
 @pytest.mark.parametrize(
