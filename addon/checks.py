@@ -7,7 +7,7 @@ import bpy
 from bpy.props import StringProperty
 
 from . import backend
-from .reports import describe
+from .reports import counted, describe
 
 _RENDERED = ("MESH", "CURVE", "SURFACE", "FONT", "META", "CURVES", "POINTCLOUD", "VOLUME", "LIGHT", "GPENCIL", "GREASEPENCIL")
 _checks = {}
@@ -71,12 +71,8 @@ class GLANZ_OT_check_scene(bpy.types.Operator):
             if ob.type in _RENDERED and not ob.hide_render and not ob.visible_get(view_layer=layer):
                 findings.note("it is hidden in 3D views, so it was not checked", f"object '{ob.name}'")
         keep(scene, layer.name, Check(features, findings.notes, f"Checked at frame {scene.frame_current}"))
-        self.report({"INFO"}, f"{_counted(len(findings.lines()), 'warning')}, see Scene Requirements")
+        self.report({"INFO"}, f"{counted(len(findings.lines()), 'warning')}, see Scene Requirements")
         return {"FINISHED"}
-
-
-def _counted(count, noun):
-    return f"{count or 'no'} {noun}{'' if count == 1 else 's'}"
 
 
 class GLANZ_OT_show(bpy.types.Operator):

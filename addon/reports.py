@@ -33,6 +33,18 @@ def is_expected(error):
     return own and error.__cause__ is None
 
 
+def explain(error):
+    """`describe(error)`, after its traceback on the console where a developer needs one."""
+    if not is_expected(error):
+        traceback.print_exception(error)
+    return describe(error)
+
+
+def counted(count, noun):
+    """Such as "no warnings", "1 warning", "2 warnings"."""
+    return f"{count or 'no'} {noun}{'' if count == 1 else 's'}"
+
+
 @contextmanager
 def errors_shown(engine):
     """Turn whatever is raised inside into an error report of Blender's render `engine`, so that its operator fails.
@@ -44,9 +56,7 @@ def errors_shown(engine):
     try:
         yield
     except BaseException as error:
-        message = describe(error)
-        if not is_expected(error):
-            traceback.print_exception(error)
+        message = explain(error)
         engine.error_set(message)
         engine.report({"ERROR"}, message)
         command_line.end_after_failure(message)
@@ -58,9 +68,7 @@ def errors_told(engine):
     try:
         yield
     except Exception as error:
-        if not is_expected(error):
-            traceback.print_exception(error)
-        engine.update_stats("", describe(error))
+        engine.update_stats("", explain(error))
 
 
 @contextmanager
@@ -69,10 +77,9 @@ def errors_logged(engine):
     try:
         yield
     except Exception as error:
-        if not is_expected(error):
-            traceback.print_exception(error)
-        log.warning("preview: %s", describe(error))
-        engine.error_set(describe(error))
+        message = explain(error)
+        log.warning("preview: %s", message)
+        engine.error_set(message)
 
 
 class Warnings:
@@ -101,4 +108,4 @@ class Warnings:
         if hidden > 0:
             self._engine.report({"WARNING"}, f"and {hidden} more warnings, see Scene Requirements in the Render properties")
         if len(self):
-            log.warning("rendered with %d warning%s", len(self), "" if len(self) == 1 else "s")
+            log.warning("rendered with %s", counted(len(self), "warning"))

@@ -3,6 +3,7 @@
 import time
 
 from .memory import peak_megabytes, used_megabytes
+from .reports import counted
 
 
 class Status:
@@ -33,7 +34,7 @@ def text(done, samples, elapsed, warnings=0, memory=None):
     """
     left = (f"{minutes(elapsed * (1 - done) / done)} left",) if done > 0 else ()
     used = (f"{memory:,.0f} MB",) if memory is not None else ()
-    told = (f"{warnings} warning{'' if warnings == 1 else 's'}",) if warnings else ()
+    told = (counted(warnings, "warning"),) if warnings else ()
     return ", ".join((f"{100 * done:.0f}% of {samples} samples", *left, *used, *told))
 
 

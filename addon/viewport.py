@@ -10,13 +10,12 @@ of which are given up at once when something else is wished for.
 
 import threading
 import time
-import traceback
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ..engine import prepare, render_plan
-from .reports import describe, is_expected
+from .reports import explain
 
 ENDLESS = 2**16
 """Samples where there shall be no end."""
@@ -121,10 +120,8 @@ class Session:
                 # Nobody hears of what fails because Python ends.
                 if self.is_closed:
                     return
-                if not is_expected(error):
-                    traceback.print_exception(error)
                 self._plan, self._compiled = None, None
-                self.status = describe(error)
+                self.status = explain(error)
 
     def _next(self):
         with self._changed:

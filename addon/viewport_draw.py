@@ -4,7 +4,6 @@ Blender calls `update` when data has changed and `draw` for each redraw; both on
 more to come, so that nothing of Blender's is ever touched by another thread.
 """
 
-import traceback
 import weakref
 
 import bpy
@@ -13,7 +12,7 @@ import numpy as np
 from gpu_extras.presets import draw_texture_2d
 
 from .export import Kept, export_contents
-from .reports import describe, is_expected
+from .reports import explain
 from .settings import settings_of
 from .viewport import ENDLESS, Session
 from .viewport_camera import view_of
@@ -63,7 +62,7 @@ class Viewport:
             view = view_of(context.region, context.region_data, space, depsgraph)
             self._session.look(view, view and self._settings(view, depsgraph))
         except Exception as error:
-            failure = self._told(error)
+            failure = explain(error)
             self._session.look(None, None)
         if view:
             self._show(view.rectangle, depsgraph.scene)
@@ -84,14 +83,8 @@ class Viewport:
             self._scene, self._notes = export_contents(depsgraph, self._kept, lambda ob: ob.visible_in_viewport_get(space))
             self._failure = ""
         except Exception as error:
-            self._scene, self._failure = None, self._told(error)
+            self._scene, self._failure = None, explain(error)
         self._session.show(self._scene)
-
-    @staticmethod
-    def _told(error):
-        if not is_expected(error):
-            traceback.print_exception(error)
-        return describe(error)
 
     def _settings(self, view, depsgraph):
         # The evaluated ones know what scripts have set only after the next change.
