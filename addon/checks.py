@@ -55,7 +55,7 @@ class GLANZ_OT_check_scene(bpy.types.Operator):
         return context.scene.render.engine == "GLANZ" and not backend.problem()
 
     def execute(self, context):
-        from ..engine import GlanzError, Requirements
+        from ..engine import GlanzError, Requirements, validate
         from .export import Findings, export_still
         from .settings import settings_of
 
@@ -63,10 +63,14 @@ class GLANZ_OT_check_scene(bpy.types.Operator):
         try:
             depsgraph = context.evaluated_depsgraph_get()
             settings = settings_of(depsgraph.scene_eval, depsgraph.view_layer_eval)
-            features = Requirements.of(export_still(depsgraph, settings, findings), settings).in_words()
+            exported = export_still(depsgraph, settings, findings)
+            _, lines = validate(exported, settings)
+            features = Requirements.of(exported, settings).in_words()
         except GlanzError as error:
             self.report({"ERROR"}, describe(error))
             return {"CANCELLED"}
+        for line in lines:
+            findings.note(line, "")
         for ob in layer.objects:
             if ob.type in _RENDERED and not ob.hide_render and not ob.visible_get(view_layer=layer):
                 findings.note("it is hidden in 3D views, so it was not checked", f"object '{ob.name}'")

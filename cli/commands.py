@@ -4,9 +4,8 @@ import dataclasses
 import json
 
 from ..addon.settings import border as border_in_pixels
-from ..engine import Requirements, SceneError, __version__, render_image, write_exr, write_scene
+from ..engine import Requirements, SceneError, __version__, render_image, validate, write_exr, write_scene
 from ..engine.io.atomic import check_writable
-from ..engine.scene.validate import validate
 from .outputs import default_output, numbered
 from .sources import open_source
 

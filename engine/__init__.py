@@ -54,6 +54,7 @@ from .scene import (
 from .scene.graphs import is_texture
 from .scene.points import average_of
 from .scene.textured import folded, textures_of
+from .scene.validate import validate
 from .scene.visibility import RAY_KINDS
 from .textures.arithmetic import Math
 from .textures.attribute import Attribute
@@ -227,6 +228,7 @@ __all__ = [
     "render_image",
     "render_plan",
     "textures_of",
+    "validate",
     "write_exr",
     "write_scene",
 ]

@@ -97,6 +97,16 @@ def test_what_the_engine_warns_of_is_kept_with_the_others(scene, tmp_path):
     assert any("1 triangles are left out" in what for what in whats())
 
 
+def test_a_check_finds_what_the_engine_leaves_out_and_refuses(scene):
+    blender.link("Lamp", bpy.data.lights.new("Lamp", "POINT")).data.shadow_soft_size = 0
+    scene.glanz.integrator = "path_blind"
+    bpy.ops.glanz.check_scene()
+    assert any(what.startswith("light 'Lamp' stays dark") for what in whats())
+    scene.camera.data.clip_start = 2 * scene.camera.data.clip_end
+    with pytest.raises(RuntimeError, match="clip range"):
+        bpy.ops.glanz.check_scene()
+
+
 def test_a_strict_render_leaves_no_light_out(scene, tmp_path):
     blender.link("Lamp", bpy.data.lights.new("Lamp", "POINT")).data.energy = -1
     bpy.ops.glanz.check_scene()
