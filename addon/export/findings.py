@@ -75,7 +75,7 @@ class Findings:
             raise SceneError(
                 f"scene '{scene_name}' is strict, and Glanz does not render all of it:\n"
                 + ";\n".join(lines)
-                + "\nChange this in the scene, or switch Strict off"
+                + ".\nChange this in the scene, or switch Strict off"
             )
 
 

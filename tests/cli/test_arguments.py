@@ -1,10 +1,14 @@
 """What the command line understands, and what it answers to what it does not."""
 
+from dataclasses import fields
+
 import pytest
 
 from glanz.cli import main
 from glanz.cli.arguments import border, frame_range, parser, resolution, sample_range
+from glanz.cli.commands import OVERRIDES
 from glanz.cli.outputs import numbered
+from glanz.engine import Settings
 
 
 @pytest.mark.parametrize(
@@ -66,6 +70,12 @@ def test_every_setting_of_the_command_line_has_its_own_name():
     assert (arguments.max_transparent, arguments.branches, arguments.min_contribution) == (9, 8, 0.5)
     assert (arguments.seed, arguments.threads, arguments.pixel_filter) == (3, 4, "f")
     assert (arguments.adaptive_threshold, arguments.adaptive_levels) == (0.1, 5)
+
+
+def test_every_setting_of_the_command_line_is_followed():
+    """The border, which it has in fractions, in a way of its own."""
+    arguments = vars(parser("1").parse_args(["render", "a.blend"]))
+    assert {field.name for field in fields(Settings)} & {*arguments} == {*OVERRIDES, "border"}
 
 
 @pytest.mark.parametrize(("words", "value"), [([], None), (["--film-transparent"], True), (["--no-film-transparent"], False)])

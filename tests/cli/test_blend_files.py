@@ -14,7 +14,8 @@ from glanz.engine.io.exr import read_exr, read_exr_metadata
 pytestmark = pytest.mark.skipif(importlib.util.find_spec("bpy") is None, reason="bpy is not installed for this Python")
 
 MAKE = """
-import bpy, os, sys
+import bpy, glanz, os, sys
+glanz.register()
 bpy.ops.wm.read_factory_settings()
 scene = bpy.context.scene
 scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = 48, 32, 50
@@ -27,10 +28,13 @@ for frame, x in ((1, 0.0), (3, 1.0)):
     cube.location.x = x
     cube.keyframe_insert("location", frame=frame)
 bpy.data.scenes.new("Blind")
-smoky = bpy.data.scenes.new("Smoky")
-smoky.camera = scene.camera
-for ob in (scene.camera, bpy.data.objects.new("Smoke", bpy.data.volumes.new("Smoke"))):
-    smoky.collection.objects.link(ob)
+smoke = bpy.data.objects.new("Smoke", bpy.data.volumes.new("Smoke"))
+for name in ("Smoky", "Strict"):
+    smoky = bpy.data.scenes.new(name)
+    smoky.glanz.strict = name == "Strict"
+    smoky.camera = scene.camera
+    for ob in (scene.camera, smoke):
+        smoky.collection.objects.link(ob)
 bpy.ops.wm.save_as_mainfile(filepath=os.path.abspath("scene.blend"))
 sys.stdout.flush()
 os._exit(0)
@@ -124,11 +128,12 @@ def test_info_prints_json_and_nothing_else(glanz):
 
 
 def test_info_tells_by_kind_what_is_not_as_in_blender(glanz):
+    """Also of a strict scene, which is not rendered."""
     content = json.loads(glanz("info scene.blend --scene Smoky --json").stdout)
     (note,) = content["notes"]
     assert note == {"what": "volumes are not rendered", "kind": "ignored", "datablock": "object", "name": "Smoke", "node": []}
     assert content["counts"]["warnings"] == len(content["warnings"]) == 1
-    assert "ignored:\n  volumes are not rendered: object 'Smoke'\n" in glanz("info scene.blend --scene Smoky").stdout
+    assert "ignored:\n  volumes are not rendered: object 'Smoke'\n" in glanz("info scene.blend --scene Strict").stdout
 
 
 @pytest.mark.parametrize(
@@ -137,7 +142,7 @@ def test_info_tells_by_kind_what_is_not_as_in_blender(glanz):
         ("render scene.blend --scene Nope", "Nope"),
         ("render scene.blend --scene Blind", "no camera"),
         ("info scene.blend --scene Blind", "no camera"),
-        ("render scene.blend --scene Smoky --strict", "volumes are not rendered: object 'Smoke'"),
+        ("render scene.blend --scene Smoky --strict", "volumes are not rendered: object 'Smoke'. Change this in the scene"),
         ("export scene.blend --scene Smoky --strict -o a.glanz", "'Smoke'"),
         ("render text.blend", "text.blend"),
         ("render cut.blend", "cut.blend"),
