@@ -17,12 +17,7 @@ def main():
     ui.open_file("cornell_box")
     assert bpy.context.scene.render.engine == "GLANZ"
     ui.area("PROPERTIES").spaces.active.context = "RENDER"
-    editor = ui.area("VIEW_3D")
-    editor.type = "PREFERENCES"
-    bpy.context.preferences.active_section = "ADDONS"
-    bpy.context.window_manager.addon_search = "Glanz"
-    bpy.ops.preferences.addon_expand(module=ui.package)
-    ui.redraw()
+    editor = ui.show_preferences()
     yield 0.3
     ui.shot("told")
     try:

@@ -50,11 +50,6 @@ def switched_off_and_on():
 
 def preferences():
     """Glanz among the extensions, with what it says of itself."""
-    editor = ui.area("VIEW_3D") if any(one.type == "VIEW_3D" for one in ui.window().screen.areas) else ui.area()
-    editor.type = "PREFERENCES"
-    bpy.context.preferences.active_section = "ADDONS"
-    bpy.context.window_manager.addon_search = "Glanz"
-    bpy.ops.preferences.addon_expand(module=ui.package)
-    ui.redraw()
+    ui.show_preferences()
     yield 0.2
     ui.shot("preferences")

@@ -144,6 +144,17 @@ def show_image(image=None):
     return editor
 
 
+def show_preferences():
+    """Show Glanz among the add-ons of the preferences, with what it says of itself, in the largest area; returns the area."""
+    editor = area()
+    editor.type = "PREFERENCES"
+    bpy.context.preferences.active_section = "ADDONS"
+    bpy.context.window_manager.addon_search = "Glanz"
+    bpy.ops.preferences.addon_expand(module=package)
+    redraw()
+    return editor
+
+
 def press(key):
     """Press "ESC" or "F12" on the keyboard, above the middle of the main window."""
     move()

@@ -22,7 +22,10 @@ def main():
     bpy.context.scene.render.engine = "GLANZ"
     # Some panels show what it has found.
     bpy.ops.glanz.check_scene()
-    open_all(properties_panels())
+    for panel in (found := properties_panels()):
+        if hasattr(panel, "draw"):
+            panel.draw = noting(panel.__name__, panel.draw)
+    register_again(found, lambda panel: True)
     yield 0.2
     editor = ui.area()
     editor.type = "PROPERTIES"
@@ -98,8 +101,8 @@ def properties_panels():
     return found
 
 
-def open_all(panels):
-    """Register `panels` again as open ones that note when they are drawn; parents come before their children."""
+def register_again(panels, is_open):
+    """Register `panels` again in this order, but parents before their children; `is_open(panel)` says whether one is open at first."""
     by_name = {getattr(panel, "bl_idname", panel.__name__): panel for panel in panels}
 
     def depth(panel):
@@ -110,9 +113,7 @@ def open_all(panels):
     for panel in reversed(ordered):
         bpy.utils.unregister_class(panel)
     for panel in ordered:
-        panel.bl_options = set(getattr(panel, "bl_options", ())) - {"DEFAULT_CLOSED"}
-        if hasattr(panel, "draw"):
-            panel.draw = noting(panel.__name__, panel.draw)
+        panel.bl_options = set(getattr(panel, "bl_options", ())) - {"DEFAULT_CLOSED"} | (set() if is_open(panel) else {"DEFAULT_CLOSED"})
         bpy.utils.register_class(panel)
 
 

@@ -14,7 +14,8 @@ def main():
     for datablock, kind, name in ((cube.active_material, "BSDF_PRINCIPLED", "Base Color"), (world, "BACKGROUND", "Color")):
         next(node for node in datablock.node_tree.nodes if node.type == kind).inputs[name].default_value = (*RED, 1)
     light.data.color = RED
-    show_previews()
+    # They are the first and open, so that they are in sight.
+    panels.register_again(sorted(panels.properties_panels(), key=is_preview, reverse=True), is_preview)
     yield 0.2
     editor = ui.area()
     editor.type = "PROPERTIES"
@@ -39,19 +40,5 @@ def red(editor):
     return ((image[..., 0] > 60) & (image[..., 0] > 1.5 * image[..., 1:].max(axis=2))).mean()
 
 
-def show_previews():
-    """Register all panels again: the previews first and open, all others closed."""
-    found = sorted(panels.properties_panels(), key=lambda panel: not panel.__name__.endswith("_PT_preview"))
-    by_name = {getattr(panel, "bl_idname", panel.__name__): panel for panel in found}
-
-    def depth(panel):
-        parent = by_name.get(getattr(panel, "bl_parent_id", ""))
-        return 1 + depth(parent) if parent else 0
-
-    found.sort(key=depth)
-    for panel in reversed(found):
-        bpy.utils.unregister_class(panel)
-    for panel in found:
-        is_preview = panel.__name__.endswith("_PT_preview")
-        panel.bl_options = set(getattr(panel, "bl_options", ())) - {"DEFAULT_CLOSED"} | (set() if is_preview else {"DEFAULT_CLOSED"})
-        bpy.utils.register_class(panel)
+def is_preview(panel):
+    return panel.__name__.endswith("_PT_preview")

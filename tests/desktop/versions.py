@@ -31,12 +31,7 @@ def main():
     assert ((yield from picture()) == first).all()
     bpy.ops.preferences.addon_enable(module=ui.package)
     assert in_use() == SECOND
-    editor = ui.area()
-    editor.type = "PREFERENCES"
-    bpy.context.preferences.active_section = "ADDONS"
-    bpy.context.window_manager.addon_search = "Glanz"
-    bpy.ops.preferences.addon_expand(module=ui.package)
-    ui.redraw()
+    ui.show_preferences()
     yield 0.3
     ui.shot("first_stands_back")
     yield from removed(repositories)
