@@ -1,5 +1,7 @@
 """What the add-on's tests share: building things in the open file, exporting and rendering it, reading EXR files."""
 
+from contextlib import contextmanager
+
 import bpy
 import numpy as np
 import OpenEXR
@@ -116,6 +118,17 @@ def render(path):
     scene.render.filepath = str(path)
     bpy.ops.render.render(write_still=True)
     return path
+
+
+@contextmanager
+def heard_by(handler):
+    """Let `handler` (scene, depsgraph) hear what Blender tells of the changes that are made inside."""
+    bpy.app.handlers.depsgraph_update_post.append(handler)
+    try:
+        yield
+        bpy.context.view_layer.update()
+    finally:
+        bpy.app.handlers.depsgraph_update_post.remove(handler)
 
 
 def read_exr(path, order="RGBAXYZ"):

@@ -62,6 +62,14 @@ def _world(plane):
     _animate(bpy.context.scene.world.node_tree.nodes[0].inputs["Strength"], "default_value", 1.0, 2.0)
 
 
+def _close_up(plane):
+    """A millimetre of the plane, a kilometre from where the camera was: single precision asks for a render space of its own."""
+    plane.scale *= 2000
+    camera = bpy.context.scene.camera
+    camera.data.clip_start = 1e-4
+    _animate(camera, "location", (0, 0, 5), (1000, 0, 1e-3))
+
+
 def _setting(name, first, second):
     scene = bpy.context.scene
     for frame, value in ((1, first), (2, second)):
@@ -76,6 +84,7 @@ FREE = {
 }
 """Changes that need no new plan."""
 CHANGES = FREE | {
+    "the camera, by far": _close_up,
     "a place": lambda plane: _animate(plane, "location", (0, 0, 0), (0.5, 0, 0)),
     "a shape": _shape,
     "a material": _material,

@@ -2,6 +2,7 @@
 
 import threading
 import time
+from dataclasses import replace
 
 import bpy
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 from glanz import engine
 from glanz.addon import render_engine, results
 from glanz.engine import rendering
+from glanz.tests import helpers as h
 from glanz.tests.addon import blender
 
 
@@ -166,6 +168,16 @@ def test_the_status_line_says_which_layer_it_is_of_where_there_are_several(furna
         bpy.app.handlers.render_stats.remove(note)
     assert any("ViewLayer" in line and "% of 4" in line for line in lines)
     assert any("Other" in line and "% of 4" in line for line in lines)
+
+
+def test_tiles_are_outlined_while_they_are_worked_on_and_none_in_the_end(furnace, tmp_path, monkeypatch):
+    place = (16, 0, 16, 16)
+    original, shown = engine.render, h.spy(monkeypatch, results.Outlines, "show")
+    monkeypatch.setattr(engine, "render", lambda *args: (replace(step, in_work=(place,)) for step in original(*args)))
+    blender.render(tmp_path / "a.exr")
+    *during, end = [call.args[1] for call in shown]
+    assert {*during} == {(place,)}
+    assert end == ()
 
 
 def _fail(error):

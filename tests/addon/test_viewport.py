@@ -161,6 +161,18 @@ def test_coarse_pictures_come_first_and_are_left_for_what_is_wished_next(session
     assert coarse[-1] == 1
 
 
+@pytest.mark.parametrize(("seconds", "widths"), [(0.0, [8, 16, 16]), (1e9, [8, 4, 2])])
+def test_first_pictures_become_as_coarse_as_their_time_asks_for(session, monkeypatch, seconds, widths):
+    """They take too long, or hardly any of what they may."""
+    monkeypatch.setattr(viewport, "FIRST_SECONDS", seconds)
+    refined = h.spy(monkeypatch, Session, "_refine")
+    session.show(SCENE)
+    for x in range(3):
+        session.look(At(x), SETTINGS)
+        finished(session)
+    assert [call.args[2] for call in refined if call.args[4] is None] == widths
+
+
 def test_no_samples_without_end(session):
     session.show(SCENE)
     session.look(At(), h.replaced(SETTINGS, samples=ENDLESS))

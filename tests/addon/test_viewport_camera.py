@@ -79,6 +79,7 @@ def test_a_border_moves_no_point(camera):
     data = region_data(camera, "PERSP")
     found = view(data, space(use_render_border=True, render_border_min_x=0.3, render_border_max_x=0.5, render_border_min_y=0.25))
     assert found.rectangle == (96, 50, 64, 150)
+    assert view(data, space(render_border_max_x=0.5)).rectangle == (0, 0, *SIZE)
     np.testing.assert_allclose(places(found), projected(data), atol=2e-3)
 
 

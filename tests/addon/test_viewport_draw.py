@@ -53,12 +53,8 @@ class Views:
     def exported_after(self, change):
         """Whether a change was answered by an export."""
         before = len(self.exports)
-        bpy.app.handlers.depsgraph_update_post.append(self.update)
-        try:
+        with blender.heard_by(self.update):
             change()
-            bpy.context.view_layer.update()
-        finally:
-            bpy.app.handlers.depsgraph_update_post.remove(self.update)
         return len(self.exports) > before
 
     @property
@@ -73,6 +69,7 @@ def views(monkeypatch):
     plane.data.materials.append(blender.new_material("White", "ShaderNodeBsdfDiffuse"))
     blender.add_plane("Other", location=(3, 0, 0))
     bpy.context.scene.glanz.viewport_samples = 2
+    bpy.data.worlds.new("Night")
     bpy.context.view_layer.update()
     views = Views(monkeypatch)
     views.update()
@@ -109,19 +106,24 @@ def test_collections_that_the_camera_sees_otherwise_are_exported(views, flag):
         (True, lambda: plane().hide_set(True)),
         (True, lambda: blender.add_plane("New")),
         (True, lambda: bpy.data.objects.remove(plane())),
+        (True, lambda: setattr(bpy.context.scene, "world", bpy.data.worlds["Night"])),
         (False, lambda: plane().select_set(True)),
         (False, lambda: setattr(bpy.data.objects["Camera"], "location", (0, 0, 9))),
         (False, lambda: setattr(bpy.data.cameras["Camera"], "lens", 20)),
     ],
-    ids=["move", "material", "hide", "add", "remove", "select", "move camera", "lens"],
+    ids=["move", "material", "hide", "add", "remove", "world", "select", "move camera", "lens"],
 )
 def test_what_changes_the_scene_is_exported_and_nothing_else(views, is_export, change):
     assert views.exported_after(change) == is_export
 
 
 def test_the_session_looks_as_the_view_does_with_the_samples_and_pixels_of_the_scene(views):
+    """And not at the border of F12, nor with its adaptive samples."""
+    scene = bpy.context.scene
+    scene.render.use_border, scene.render.border_max_x, scene.glanz.adaptive_threshold = True, 0.5, 0.25
     views.draw()
     settings = views.session._settings
+    assert (settings.border, settings.adaptive_threshold) == ((), 0)
     assert (settings.width, settings.height, settings.samples, settings.passes) == (32, 24, 2, ("Combined",))
     assert isinstance(views.session._view.camera(), PerspectiveCamera)
     bpy.context.scene.glanz.viewport_samples, views.engine.pixel = 0, 1
@@ -159,7 +161,11 @@ def test_what_the_view_asks_for_and_does_not_get_is_told(views):
         shading.use_scene_lights_render = False
         views.draw()
         assert views.engine.told[1] == "Scene Lights is off, but they are rendered and 1 more"
+        views.space.region_3d.use_clip_planes = True
+        views.draw()
+        assert views.engine.told[1] == "the clipping region is ignored and 2 more"
     finally:
+        views.space.region_3d.use_clip_planes = False
         shading.use_scene_world_render = shading.use_scene_lights_render = True
 
 
@@ -208,10 +214,9 @@ def test_an_engine_that_is_freed_ends_its_threads(views):
 
 def test_closed_views_ask_for_nothing(views):
     views.draw()
-    views.viewport.close()
+    viewport_draw.close_all()
     assert views.viewport.is_closed
     assert views.viewport._tick() is None
-    viewport_draw.close_all()
 
 
 def test_whatever_is_raised_becomes_text(capsys):

@@ -26,7 +26,6 @@ class Viewer:
 
     def __init__(self):
         self.kept, self.meshes = Kept(), {}
-        self._handler = lambda scene, depsgraph: self.look(depsgraph)
         bpy.context.view_layer.update()
         self.look(bpy.context.evaluated_depsgraph_get())
 
@@ -39,12 +38,8 @@ class Viewer:
     def after(self, change):
         """The meshes that are others after a change."""
         before = self.meshes
-        bpy.app.handlers.depsgraph_update_post.append(self._handler)
-        try:
+        with blender.heard_by(lambda scene, depsgraph: self.look(depsgraph)):
             change()
-            bpy.context.view_layer.update()
-        finally:
-            bpy.app.handlers.depsgraph_update_post.remove(self._handler)
         return {name for name, mesh in self.meshes.items() if before.get(name) is not mesh}
 
 
