@@ -4,6 +4,7 @@ import bpy
 
 from . import backend, passes
 from .preferences import paragraph
+from .presets import GLANZ_PT_sampling_presets
 
 
 class GlanzPanel:
@@ -70,8 +71,7 @@ class GLANZ_RENDER_PT_sampling(GlanzPanel, bpy.types.Panel):
     bl_label = "Sampling"
 
     def draw_header_preset(self, context):
-        self.layout.emboss = "NONE"
-        self.layout.menu("GLANZ_MT_sampling_presets", text="", icon="PRESET")
+        GLANZ_PT_sampling_presets.draw_panel_header(self.layout)
 
     def draw(self, context):
         settings = context.scene.glanz

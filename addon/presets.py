@@ -1,11 +1,14 @@
-"""Sets of settings for common purposes, in the header of the Sampling panel.
+"""Sets of settings for common purposes, in the header of the Sampling panel: Glanz's own, and those that users add.
 
-They are a table, not Python files that Blender executes as its own presets are.
+Glanz's own are a table, which says what each costs. Those of users are Blender's presets: Python files in their folder
+scripts/presets/glanz that Blender executes, so that none ever comes out of a .blend file.
 """
 
 from dataclasses import dataclass
 
 import bpy
+from bl_operators.presets import AddPresetBase
+from bl_ui.utils import PresetPanel
 from bpy.props import EnumProperty
 
 from . import backend
@@ -68,7 +71,15 @@ PRESETS = {
 }
 
 
-class GLANZ_OT_sampling_preset(bpy.types.Operator):
+class _NeedsEngine:
+    """Without the engine there are no integrators to choose from."""
+
+    @classmethod
+    def poll(cls, context):
+        return context.engine == "GLANZ" and backend.engine() is not None
+
+
+class GLANZ_OT_sampling_preset(_NeedsEngine, bpy.types.Operator):
     """Set how Glanz samples this scene"""
 
     bl_idname = "glanz.sampling_preset"
@@ -82,25 +93,59 @@ class GLANZ_OT_sampling_preset(bpy.types.Operator):
         """The tooltip of each of its buttons."""
         return PRESETS[properties.preset].cost
 
-    @classmethod
-    def poll(cls, context):
-        # Without the engine there are no integrators to choose from.
-        return context.engine == "GLANZ" and backend.engine() is not None
-
     def execute(self, context):
         for name, value in PRESETS[self.preset].settings.items():
             setattr(context.scene.glanz, name, value)
         return {"FINISHED"}
 
 
-class GLANZ_MT_sampling_presets(bpy.types.Menu):
+class GLANZ_OT_sampling_preset_add(_NeedsEngine, AddPresetBase, bpy.types.Operator):
+    """Add what now is set in Sampling and Light Paths as a preset of yours, or remove one"""
+
+    bl_idname = "glanz.sampling_preset_add"
+    bl_label = "Add Sampling Preset"
+    preset_menu = "GLANZ_PT_sampling_presets"
+    preset_subdir = "glanz"
+    preset_defines = ("glanz = bpy.context.scene.glanz",)
+    preset_values = tuple(f"glanz.{name}" for name in PRESETS["BALANCED"].settings)
+
+    def execute(self, context):
+        """Blender refuses names of other files; those of Glanz's own presets are none of files."""
+        own = {self.as_filename(preset.label).lower() for preset in PRESETS.values()}
+        if not self.remove_name and self.as_filename(self.name).lower() in own:
+            self.report({"WARNING"}, f'Glanz has a preset "{self.name}" of its own: give this one another name')
+            return {"CANCELLED"}
+        return super().execute(context)
+
+
+class GLANZ_PT_sampling_presets(PresetPanel, bpy.types.Panel):
     bl_label = "Sampling Presets"
+    preset_subdir = "glanz"
+    preset_operator = "script.execute_preset"
+    preset_add_operator = GLANZ_OT_sampling_preset_add.bl_idname
 
     def draw(self, context):
+        self.layout.emboss = "PULLDOWN_MENU"
+        column = self.layout.column(align=True)
         for key, preset in PRESETS.items():
-            self.layout.operator(GLANZ_OT_sampling_preset.bl_idname, text=preset.label).preset = key
+            column.operator(GLANZ_OT_sampling_preset.bl_idname, text=preset.label).preset = key
+        self.layout.separator()
+        if bpy.utils.preset_paths(self.preset_subdir):
+            PresetPanel.draw(self, context)
+            return
+        # Before the first one Blender would complain of a missing folder.
+        row = self.layout.row()
+        field = row.row()
+        field.emboss = "NORMAL"
+        field.prop(context.window_manager, "preset_name", text="")
+        row.operator(self.preset_add_operator, text="", icon="ADD").name = context.window_manager.preset_name
+
+    @staticmethod
+    def post_cb(context, filepath):
+        """Blender executes a preset without a step of its own in its undo."""
+        bpy.ops.ed.undo_push(message="Sampling Preset")
 
 
-_CLASSES = (GLANZ_OT_sampling_preset, GLANZ_MT_sampling_presets)
+_CLASSES = (GLANZ_OT_sampling_preset, GLANZ_OT_sampling_preset_add, GLANZ_PT_sampling_presets)
 
 register, unregister = bpy.utils.register_classes_factory(_CLASSES)

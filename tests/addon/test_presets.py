@@ -1,4 +1,4 @@
-"""A preset makes of any settings what it says, touches no others, and can be undone."""
+"""A preset makes of any settings what it says and touches no others; users have their own, Glanz keeps its own."""
 
 from types import SimpleNamespace
 
@@ -54,17 +54,36 @@ def test_every_preset_gives_a_picture(key, tmp_path):
     np.testing.assert_allclose(pixels, np.broadcast_to((1, 0.5, 0.25, 1), pixels.shape), rtol=1e-5)
 
 
-def test_the_menu_offers_each_with_its_cost():
+def _panel():
+    """What the panel of presets draws: (operator, text, what its button is given)."""
     drawn = []
 
-    def operator(name, text):
-        drawn.append((name, text, button := SimpleNamespace()))
-        return button
+    class Layout:
+        def operator(self, name, text="", **options):
+            drawn.append((name, text, SimpleNamespace()))
+            return drawn[-1][2]
 
-    presets.GLANZ_MT_sampling_presets.draw(SimpleNamespace(layout=SimpleNamespace(operator=operator)), None)
-    assert [(text, button.preset) for _, text, button in drawn] == [(preset.label, key) for key, preset in PRESETS.items()]
-    assert {name for name, _, _ in drawn} == {"glanz.sampling_preset"}
-    for _, _, button in drawn:
+        def column(self, **options):
+            return self
+
+        row = column
+
+        def separator(self, **options):
+            pass
+
+        def prop(self, owner, name, **options):
+            assert hasattr(owner, name)
+
+    kind = presets.GLANZ_PT_sampling_presets
+    asked = {name: getattr(kind, name) for name in dir(kind) if name.startswith("preset_")}
+    kind.draw(type("Panel", (presets.PresetPanel,), asked | {"bl_idname": kind.__name__, "layout": Layout()})(), bpy.context)
+    return drawn
+
+
+def test_the_panel_offers_each_with_its_cost():
+    drawn = [(text, button) for name, text, button in _panel() if name == "glanz.sampling_preset"]
+    assert [(text, button.preset) for text, button in drawn] == [(preset.label, key) for key, preset in PRESETS.items()]
+    for _, button in drawn:
         tooltip = presets.GLANZ_OT_sampling_preset.description(None, button)
         assert "time" in tooltip
         assert "noise" in tooltip.lower() or button.preset == "BALANCED"
@@ -72,5 +91,41 @@ def test_the_menu_offers_each_with_its_cost():
 
 def test_without_the_engine_there_is_nothing_to_choose(monkeypatch):
     assert bpy.ops.glanz.sampling_preset.poll()
+    assert bpy.ops.glanz.sampling_preset_add.poll()
     monkeypatch.setattr(backend, "engine", lambda: None)
     assert not bpy.ops.glanz.sampling_preset.poll()
+    assert not bpy.ops.glanz.sampling_preset_add.poll()
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """The folder of a user's presets, not that of whoever runs the tests."""
+    monkeypatch.setenv("BLENDER_USER_SCRIPTS", str(tmp_path))
+    return tmp_path / "presets" / "glanz"
+
+
+def test_users_add_choose_and_remove_their_own(folder):
+    glanz = bpy.context.scene.glanz
+    for name, value in ODD.items():
+        setattr(glanz, name, value)
+    assert bpy.ops.glanz.sampling_preset_add(name="Mürrisch 2") == {"FINISHED"}
+    (path,) = folder.iterdir()
+    (chosen,) = (button for name, text, button in _panel() if (name, text) == ("script.execute_preset", "Mürrisch 2"))
+    assert chosen.filepath == str(path)
+
+    bpy.ops.glanz.sampling_preset(preset="PREVIEW")
+    assert bpy.ops.script.execute_preset(filepath=chosen.filepath, menu_idname=chosen.menu_idname) == {"FINISHED"}
+    assert {name: getattr(glanz, name) for name in ODD} == pytest.approx(ODD)
+
+    (minus,) = (button for name, _, button in _panel() if getattr(button, "remove_name", False))
+    assert bpy.ops.glanz.sampling_preset_add(name=minus.name, remove_name=True) == {"FINISHED"}
+    assert not list(folder.iterdir())
+    assert "script.execute_preset" not in {name for name, _, _ in _panel()}
+
+
+@pytest.mark.parametrize("label", [preset.label for preset in PRESETS.values()])
+def test_glanzs_own_are_neither_replaced_nor_removed(label, folder):
+    assert bpy.ops.glanz.sampling_preset_add(name=label) == {"CANCELLED"}
+    assert not folder.exists()
+    assert bpy.ops.glanz.sampling_preset_add(name=label, remove_name=True) == {"CANCELLED"}
+    assert label in {text for _, text, _ in _panel()}

@@ -31,7 +31,10 @@ LAYERS = (
 """What may be imported stands above, or in the same folder."""
 RANK = {name: rank for rank, layer in enumerate(LAYERS) for name in layer}
 HOMES = {"embreex": "engine/world/accel.py", "OpenEXR": "engine/io/exr.py", "PIL": "engine/io/png.py"}
-FOREIGN = {"engine": {"numpy", *HOMES}, "addon": {"bpy", "numpy", "bl_ui", "mathutils", "gpu", "gpu_extras", "bpy_extras", "bpy_types"}}
+FOREIGN = {
+    "engine": {"numpy", *HOMES},
+    "addon": {"bpy", "numpy", "bl_ui", "bl_operators", "mathutils", "gpu", "gpu_extras", "bpy_extras", "bpy_types"},
+}
 
 
 def files(*folders):
