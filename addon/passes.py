@@ -45,6 +45,7 @@ TABLE = {
     "Transmission Color": BlenderPass("COLOR", "use_pass_transmission_color", "TransCol"),
     "Emission": BlenderPass("COLOR", "use_pass_emit", "Emit"),
     "Environment": BlenderPass("COLOR", "use_pass_environment", "Env"),
+    "Shadow": BlenderPass("COLOR", "use_pass_shadow"),
     "Ambient Occlusion": BlenderPass("COLOR", "use_pass_ambient_occlusion", "AO"),
     # Cycles' own switch, as the compositor's Denoise node is fed alike whichever has rendered.
     "Denoising Albedo": BlenderPass("COLOR", "cycles.denoising_store_passes"),
@@ -58,7 +59,7 @@ def offered():
     """{key: (pass class of the engine, BlenderPass)} of the table's passes that the engine knows; empty without the engine."""
     engine = backend.engine()
     registry = engine.PASSES if engine else {}
-    return {key: (plugin, TABLE[key]) for key, plugin in registry.items() if key in TABLE}
+    return {key: (registry[key], row) for key, row in TABLE.items() if key in registry}
 
 
 def chosen(view_layer, scene):

@@ -305,7 +305,8 @@ class Pass(Protocol):
                 "": nothing, it is what `gather(film)` (C, slots) makes of the film at the end
     reduction   what a pixel is of its samples: their "mean", the "first" of them, their "sum", or of "ranks": what covers most of it;
                 then there are two `rows` of values, a number and how much it counts, see `wavefront.ranks`
-    divided_by  the pass whose share it is, and by which it is divided at the end; "" for none
+    divided_by  the pass whose share it is, and by which it is divided at the end; "" for none; its own key: there are twice as many
+                `rows` of values as channels, and the first half is divided by the second
 
     One that looks up what meshes and objects bring has `attributes`, keys as in `world.attributes`; `facts(scene, layer)`
     {str: str}, if there are any, are what files have to say of it. Passes that scenes name are of families, see `Registry`.
@@ -334,6 +335,7 @@ class Integrator(Protocol):
     tints_glass     shadow rays pass specular surfaces that transmit, weakened by their transmittance; and what passes
                     straight on is a ray of its own, as all branches of specular lobes are
     on_surface      the stages (plan, rays, surface, reflection, film) that do it
+    to_lights       the points on lights (plan, rays, surface), see `wavefront.direct.to_one_light`, for passes that ask what is in the way
     """
 
     key: str
@@ -344,6 +346,7 @@ class Integrator(Protocol):
     splits_white: bool
     tints_glass: bool
     on_surface: tuple
+    to_lights: object
 
     @staticmethod
     def scatter(plan, rays, surface, reflection):

@@ -39,6 +39,7 @@ from .wavefront.direct import (
     shaded_side,
     shadow_rays_in_front,
     shadow_rays_on_either_side,
+    to_no_light,
     unsplit,
 )
 from .wavefront.emission import add_emission, even_shine, textured_shine
@@ -84,6 +85,7 @@ class Plan:
     travel             the hits (plan, rays, film) of a batch, see `wavefront.visibility`
     lit_side           the normals (surface) on the side that a choice of lights is for; None: any
     shadow_rays        the shadow rays (plan, rays, surface, reflection, wi, distance) to points on lights
+    to_lights          points on lights (plan, rays, surface), see `wavefront.direct.to_one_light`
     lit_lobes          light (plan, surface, reflection, wi, L, light) by the lobes that lights are not hidden from
     split_light        the rays (plan, rays, surface, reflection, wi) with what passes ask of light that they reflect
     closest_to_shadows `closest` of shadow rays
@@ -130,6 +132,7 @@ class Plan:
     travel: object
     lit_side: object
     shadow_rays: object
+    to_lights: object
     lit_lobes: object
     split_light: object
     unblocked: object
@@ -276,6 +279,7 @@ class Plan:
             travel=travel_through if passes else travel,
             lit_side=shaded_side if minds_side else any_side,
             shadow_rays=shadow_rays_on_either_side if world.materials.kind is TwoSided else shadow_rays_in_front,
+            to_lights=to_no_light if world.lights.is_empty else integrator.to_lights,
             lit_lobes=lit_lobes if hides_lights else all_lobes,
             split_light=split_light if splits else unsplit,
             unblocked=unblocked_through if tints else media.absorbed(unblocked) if absorbs else unblocked,

@@ -107,7 +107,13 @@ def features():
     exact = {
         "Cameras": [f"{camera._KINDS[kind][0].label.lower()} cameras" for kind in camera._KINDS],
         "Lights": [f"{kind.lower()} lights" for kind in light._KINDS],
-        "Passes": [", ".join(passes.TABLE), "Cryptomatte by object, material and asset", "AOVs of materials", "light groups"],
+        "Passes": [
+            ", ".join(name for name in passes.TABLE if name != "Shadow"),
+            "Shadow, which Cycles has not: EEVEE's, but in colours and by traced rays",
+            "Cryptomatte by object, material and asset",
+            "AOVs of materials",
+            "light groups",
+        ],
         "Objects": ["meshes, curves, surfaces, text and metaballs, with modifiers, and instances of them"],
         "Motion": ["cameras and objects that move, turn, grow and deform"],
     }

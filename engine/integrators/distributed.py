@@ -6,7 +6,7 @@ one before, so the tree stays finite; once there is one branch it is path tracin
 samples of the pixel. The branches of a pixel's samples are one set of stratified numbers.
 """
 
-from ..wavefront.branching import add_distributed_light, branches_at, mirrored_and_refracted, spread
+from ..wavefront.branching import add_distributed_light, branches_at, mirrored_and_refracted, spread, to_spread_light
 from . import registry
 
 
@@ -22,6 +22,7 @@ class Distributed:
     splits_specular = True
     tints_glass = False
     on_surface = (add_distributed_light,)
+    to_lights = staticmethod(to_spread_light)
 
     @staticmethod
     def scatter(plan, rays, surface, reflection):

@@ -1,7 +1,7 @@
 """Path tracing: one ray goes on from every surface point (Kajiya 1986), and one goes to a light."""
 
 from ..wavefront.continuation import go_on
-from ..wavefront.direct import add_direct_light
+from ..wavefront.direct import add_direct_light, to_one_light
 from ..wavefront.numbers import Dimension
 from . import registry
 
@@ -18,6 +18,7 @@ class Path:
     splits_specular = False
     tints_glass = False
     on_surface = (add_direct_light,)
+    to_lights = staticmethod(to_one_light)
 
     @staticmethod
     def scatter(plan, rays, surface, reflection):

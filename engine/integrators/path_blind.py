@@ -3,6 +3,7 @@
 import numpy as np
 
 from ..wavefront.continuation import go_on
+from ..wavefront.direct import to_one_light
 from ..wavefront.numbers import Dimension
 from . import registry
 
@@ -19,6 +20,7 @@ class BlindPath:
     splits_specular = False
     tints_glass = False
     on_surface = ()
+    to_lights = staticmethod(to_one_light)
 
     @staticmethod
     def scatter(plan, rays, surface, reflection):

@@ -6,6 +6,7 @@ The lecture's first estimator, 2 pi / N sum f L cos; to see what importance samp
 import numpy as np
 
 from ..wavefront.continuation import go_on
+from ..wavefront.direct import to_one_light
 from ..wavefront.numbers import Dimension
 from . import registry
 
@@ -22,6 +23,7 @@ class NaivePath:
     splits_specular = False
     tints_glass = False
     on_surface = ()
+    to_lights = staticmethod(to_one_light)
 
     @staticmethod
     def scatter(plan, rays, surface, reflection):

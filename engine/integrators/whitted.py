@@ -7,7 +7,7 @@ after `max_depth` bounces, or where a ray would count less than `min_contributio
 """
 
 from ..wavefront.branching import mirrored_and_refracted
-from ..wavefront.hard_light import add_hard_light
+from ..wavefront.hard_light import add_hard_light, to_middles
 from . import registry
 
 
@@ -23,6 +23,7 @@ class Whitted:
     splits_specular = True
     tints_glass = True
     on_surface = (add_hard_light,)
+    to_lights = staticmethod(to_middles)
 
     @staticmethod
     def scatter(plan, rays, surface, reflection):

@@ -9,7 +9,7 @@ lobes, k_s and n those of Phong lobes, k_a the `ambient` of materials.
 """
 
 from ..wavefront.branching import mirrored_and_refracted
-from ..wavefront.hard_light import add_illumination
+from ..wavefront.hard_light import add_illumination, to_middles
 from . import registry
 
 
@@ -25,6 +25,7 @@ class WhittedPhong:
     splits_specular = True
     tints_glass = True
     on_surface = (add_illumination,)
+    to_lights = staticmethod(to_middles)
 
     @staticmethod
     def scatter(plan, rays, surface, reflection):

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..maths.hashing import mix_int
 from .continuation import leaving, survive
-from .direct import add_direct_light
+from .direct import add_direct_light, to_one_light
 from .numbers import Dimension
 
 _FEWER = 4
@@ -69,3 +69,11 @@ def add_distributed_light(plan, rays, surface, reflection, film):
     rough = reflection.without_specular()
     for i in range(count):
         add_direct_light(plan, split(rays, count, i), surface, rough, film)
+
+
+def to_spread_light(plan, rays, surface):
+    """As `direct.to_one_light`, for as many points as `add_distributed_light` has."""
+    count = branches_at(plan, rays.depth)
+    for i in range(count):
+        for light, wi, distance, E in to_one_light(plan, split(rays, count, i), surface):
+            yield light, wi, distance, E / np.float32(count)

@@ -16,16 +16,35 @@ SHORTENED = np.float32(1 - 4 * EPS32)
 
 def add_direct_light(plan, rays, surface, reflection, film):
     """Light that reaches the surface straight from one light, chosen and sampled; blocked by anything between."""
-    world = plan.world
-    # Seen from where the shadow ray starts, so that it ends where it should.
-    index, probability, u2 = world.lights.choice.choose(surface.o, plan.numbers.two(rays, Dimension.LIGHT), plan.lit_side(surface))
-    wi, distance, E, pdf = world.lights.sample(index, surface.o, u2, rays.time)
+    index, probability, wi, distance, E, pdf = _one_light(plan, rays, surface)
     cos = reflection.cosine(surface, wi)
     f, scattered_pdf = reflection.eval(surface.ns, surface.wo, wi)
     L = rays.beta * f
-    E *= cos * power_heuristic(pdf * probability, world.lights.rival(index, scattered_pdf)) / probability
+    E *= cos * power_heuristic(pdf * probability, plan.world.lights.rival(index, scattered_pdf)) / probability
     L *= E
     arriving(plan, rays, surface, reflection, wi, distance, cos, L, index, film)
+
+
+def to_no_light(plan, rays, surface):
+    """`to_one_light` where there is none."""
+    return ()
+
+
+def to_one_light(plan, rays, surface):
+    """Points on lights as one of them stands for all: its index, wi (3, N), distance (N,) and E (3, N) [W m^-2], for each.
+
+    E, all together on average, is the irradiance of surfaces that face the lights, see `interfaces.Light.sample`.
+    """
+    index, probability, wi, distance, E, _ = _one_light(plan, rays, surface)
+    yield index, wi, distance, E / probability
+
+
+def _one_light(plan, rays, surface):
+    """The index of a light and its probability, and what `interfaces.Light.sample` says of it."""
+    lights = plan.world.lights
+    # Seen from where the shadow ray starts, so that it ends where it should.
+    index, probability, u2 = lights.choice.choose(surface.o, plan.numbers.two(rays, Dimension.LIGHT), plan.lit_side(surface))
+    return index, probability, *lights.sample(index, surface.o, u2, rays.time)
 
 
 def arriving(plan, rays, surface, reflection, wi, distance, cos, L, light, film):

@@ -21,7 +21,7 @@ class Film:
     def __init__(self, pixels, passes):
         self.passes = passes
         self._parts = tuple(p for p in passes if p.records in ("light", "first hit and light"))
-        self.sums = {p.key: Ranks(pixels) if p.reduction == "ranks" else np.zeros((len(p.channels), pixels)) for p in passes}
+        self.sums = {p.key: Ranks(pixels) if p.reduction == "ranks" else np.zeros((_rows(p), pixels)) for p in passes}
         self.samples = np.zeros(pixels, np.int64)
         self.bad_samples = 0
 
@@ -115,9 +115,13 @@ def _reduced(p, total, count):
 
 
 def shown(passes, values):
-    """{pass: (C, P) float32} of values {pass: (C, P) float64}: those that are a share of another are divided by it, 0 where that is 0."""
+    """{pass: (C, P) float32} of values {pass: (rows, P) float64}: what is a share of something is divided by it, 0 where that is 0."""
     result = {}
     for p in passes:
-        whole = values[p.divided_by] if p.divided_by else 1
-        result[p.key] = np.divide(values[p.key], whole, out=np.zeros_like(values[p.key]), where=whole != 0).astype(np.float32)
+        value = values[p.key]
+        if p.divided_by:
+            # By another pass, or by the second half of its own rows.
+            value, whole = value[: len(p.channels)], values[p.divided_by][-len(p.channels) :]
+            value = np.divide(value, whole, out=np.zeros_like(value), where=whole != 0)
+        result[p.key] = value.astype(np.float32)
     return result

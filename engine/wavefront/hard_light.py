@@ -11,7 +11,7 @@ MOST_LIGHTS = 64
 
 def add_hard_light(plan, rays, surface, reflection, film):
     """Light from the middle of every light, reflected by the rough lobes."""
-    for light, wi, distance, E in _middles(plan, rays, surface):
+    for light, wi, distance, E in to_middles(plan, rays, surface):
         cos = reflection.cosine(surface, wi)
         f, _ = reflection.eval(surface.ns, surface.wo, wi)
         L = rays.beta * f
@@ -23,7 +23,7 @@ def add_illumination(plan, rays, surface, reflection, film):
     """Light from the middle of every light by the lecture's illumination model, see `integrators.whitted_phong`."""
     ambient = plan.world.materials.ambient.take(surface.material, axis=1)
     every = np.arange(rays.slot.size)
-    for light, wi, distance, E in _middles(plan, rays, surface):
+    for light, wi, distance, E in to_middles(plan, rays, surface):
         I_L = E if plan.settings.light_falloff else E * _of_one_metre(distance, plan.world.frame.scale)
         lit = plan.split_light(plan, rays, surface, reflection, wi)
         L = plan.lit_lobes(plan, surface, reflection, wi, rays.beta * ambient * I_L, light)
@@ -38,11 +38,8 @@ def _of_one_metre(distance, scale):
     return np.where(np.isfinite(metres), metres * metres, 1)
 
 
-def _middles(plan, rays, surface):
-    """For each light: its place in `lights`, (N,) or a number, wi (3, N) towards its middle, distance (N,), and E (3, N).
-
-    E is the irradiance of a surface that faces it.
-    """
+def to_middles(plan, rays, surface):
+    """As `direct.to_one_light`, for the middle of each light; the index is (N,) or a number."""
     lights = plan.world.lights
     if lights.count > MOST_LIGHTS:
         index, probability, u2 = lights.choice.choose(surface.o, plan.numbers.two(rays, Dimension.LIGHT), plan.lit_side(surface))

@@ -120,6 +120,31 @@ def render(path):
     return path
 
 
+def compositor():
+    """The tree of the scene's compositor, emptied, and its last node's input."""
+    scene = bpy.context.scene
+    if hasattr(scene, "compositing_node_group"):
+        tree = scene.compositing_node_group = bpy.data.node_groups.new("Compositor", "CompositorNodeTree")
+        tree.interface.new_socket("Image", in_out="OUTPUT", socket_type="NodeSocketColor")
+        return tree, tree.nodes.new("NodeGroupOutput").inputs[0]
+    scene.use_nodes = True
+    scene.node_tree.nodes.clear()
+    return scene.node_tree, scene.node_tree.nodes.new("CompositorNodeComposite").inputs["Image"]
+
+
+def composited(path):
+    """What the compositor makes of F12, (height, width, channels) float32, by way of an EXR file."""
+    scene = bpy.context.scene
+    image = scene.render.image_settings
+    if hasattr(image, "media_type"):
+        image.media_type = "IMAGE"
+    image.file_format, image.color_depth = "OPEN_EXR", "32"
+    scene.render.filepath = str(path)
+    bpy.ops.render.render(write_still=True)
+    (found,) = read_exr(path).values()
+    return found
+
+
 @contextmanager
 def heard_by(handler):
     """Let `handler` (scene, depsgraph) hear what Blender tells of the changes that are made inside."""

@@ -42,6 +42,22 @@ def test_passes_are_those_of_the_view_layer(furnace, tmp_path):
     assert "ViewLayer.Normal" not in blender.read_exr(blender.render(tmp_path / "b.exr"))
 
 
+def test_the_shadow_pass_is_in_files_and_in_the_compositor(furnace, tmp_path):
+    """A sun through a pane of colour, behind the camera; EEVEE's name and channels."""
+    tint = (0.25, 0.5, 1)
+    blender.link("Sun", bpy.data.lights.new("Sun", "SUN"))
+    pane = blender.add_plane("Pane", 20, (0, 0, 6))
+    pane.data.materials.append(blender.new_material("Pane", "ShaderNodeBsdfTransparent", Color=(*tint, 1)))
+    tree, end = blender.compositor()
+    layers = tree.nodes.new("CompositorNodeRLayers")
+    assert not any(socket.name == "Shadow" and socket.enabled for socket in layers.outputs)
+    bpy.context.view_layer.use_pass_shadow = True
+    assert layers.outputs["Shadow"].enabled
+    tree.links.new(layers.outputs["Shadow"], end)
+    for found in (blender.read_exr(blender.render(tmp_path / "a.exr"))["ViewLayer.Shadow"], blender.composited(tmp_path / "b.exr")):
+        np.testing.assert_allclose(found[..., :3], np.broadcast_to(tint, (64, 64, 3)), rtol=1e-5)
+
+
 def test_pixels_are_divided_at_edges_alone(tmp_path):
     """A plane that glows and covers half of pixel 16: with four levels its coverage to 1 %, and the file says where samples went."""
     blender.add_camera(location=(0, 0, 5), type="ORTHO", ortho_scale=1.0, width=32, height=32)

@@ -84,18 +84,12 @@ def test_the_compositor_makes_mattes_of_what_glanz_has_rendered(tmp_path):
     half_hidden()
     scene = bpy.context.scene
     scene.render.engine = "GLANZ"
-    tree, end = test_data_passes.compositor()
+    tree, end = blender.compositor()
     node = tree.nodes.new("CompositorNodeCryptomatteV2")
     node.source, node.matte_id = "RENDER", "Card"
     node.layer_name = f"{bpy.context.view_layer.name}.CryptoObject"
     tree.links.new(node.outputs["Matte"], end)
-    image = scene.render.image_settings
-    if hasattr(image, "media_type"):
-        image.media_type = "IMAGE"
-    image.file_format, image.color_depth = "OPEN_EXR", "32"
-    scene.render.filepath = str(tmp_path / "matte.exr")
-    bpy.ops.render.render(write_still=True)
-    (matte,) = blender.read_exr(tmp_path / "matte.exr").values()
+    matte = blender.composited(tmp_path / "matte.exr")
     covered = matte[..., 0][matte[..., 0] > 0.2]
     assert 50 < covered.size < 200
     assert abs(np.median(covered) - 0.3) < 0.01

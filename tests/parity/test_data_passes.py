@@ -101,18 +101,6 @@ def test_the_comparison_catches_what_is_wrong(monkeypatch, tmp_path):
     assert lost.keys() == {"Mist", "UV", "Denoising Normal"}
 
 
-def compositor():
-    """The tree of the scene's compositor, emptied, and its last node's input."""
-    scene = bpy.context.scene
-    if hasattr(scene, "compositing_node_group"):
-        tree = scene.compositing_node_group = bpy.data.node_groups.new("Compositor", "CompositorNodeTree")
-        tree.interface.new_socket("Image", in_out="OUTPUT", socket_type="NodeSocketColor")
-        return tree, tree.nodes.new("NodeGroupOutput").inputs[0]
-    scene.use_nodes = True
-    scene.node_tree.nodes.clear()
-    return scene.node_tree, scene.node_tree.nodes.new("CompositorNodeComposite").inputs["Image"]
-
-
 def test_the_compositor_denoises_what_glanz_has_rendered(tmp_path):
     """Two samples through Denoise, with albedo and normal: much closer to the clean picture than they were."""
     table_top()
@@ -120,19 +108,13 @@ def test_the_compositor_denoises_what_glanz_has_rendered(tmp_path):
     clean = parity.pixels("GLANZ", tmp_path)
     bpy.context.scene.glanz.samples = 2
     noisy = parity.pixels("GLANZ", tmp_path)
-    tree, end = compositor()
+    tree, end = blender.compositor()
     layers, denoise = tree.nodes.new("CompositorNodeRLayers"), tree.nodes.new("CompositorNodeDenoise")
     for source, target in (("Image", "Image"), ("Denoising Albedo", "Albedo"), ("Denoising Normal", "Normal")):
         assert layers.outputs[source].enabled
         tree.links.new(layers.outputs[source], denoise.inputs[target])
     tree.links.new(denoise.outputs[0], end)
-    image = bpy.context.scene.render.image_settings
-    if hasattr(image, "media_type"):
-        image.media_type = "IMAGE"
-    image.file_format, image.color_depth = "OPEN_EXR", "32"
-    bpy.context.scene.render.filepath = str(tmp_path / "denoised.exr")
-    bpy.ops.render.render(write_still=True)
-    (denoised,) = blender.read_exr(tmp_path / "denoised.exr").values()
+    denoised = blender.composited(tmp_path / "denoised.exr")
     error, before = (np.sqrt(np.square(image - clean).mean()) for image in (denoised[..., :3], noisy))
     assert before > 0.01
     assert error < 0.6 * before

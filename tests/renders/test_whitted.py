@@ -112,13 +112,13 @@ def test_whitted_distributed_and_path_tracing_agree_on_direct_light():
 
 
 def test_agreement_catches_a_cosine_squared(monkeypatch):
-    middles = hard_light._middles
+    middles = hard_light.to_middles
 
     def steeper(plan, rays, surface):
         for light, wi, distance, E in middles(plan, rays, surface):
             yield light, wi, distance, E * (surface.ns * wi).sum(axis=0)
 
-    monkeypatch.setattr(hard_light, "_middles", steeper)
+    monkeypatch.setattr(hard_light, "to_middles", steeper)
     with pytest.raises(AssertionError):
         check_three_integrators_agree()
 
