@@ -61,7 +61,7 @@ class GLANZ_LIGHT_PT_nodes(GlanzPanel, bpy.types.Panel):
         if output is None:
             column.label(text="There is no Light Output")
         else:
-            self.layout.template_node_view(light.node_tree, output, output.inputs["Surface"])
+            self.layout.template_node_view(light.node_tree, output, output.inputs[0])
 
 
 _CLASSES = (GLANZ_LIGHT_PT_light, GLANZ_LIGHT_PT_nodes)

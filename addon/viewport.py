@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..engine import prepare, render_plan
-from .reports import explain
+from .reports import counted, explain
 
 ENDLESS = 2**16
 """Samples where there shall be no end."""
@@ -172,7 +172,7 @@ class Session:
             for tile in progress.tiles:
                 bottom = height - tile.y - tile.height
                 pixels[bottom : bottom + tile.height, tile.x : tile.x + tile.width] = tile.passes["Combined"][::-1]
-            if samples > 1:
+            if coarse == 1:
                 self.status = progress_text(progress.done, samples)
             if time.monotonic() - shown > SHOW_SECONDS and not self._stale.is_set():
                 self.picture, shown = Picture(pixels.copy()), time.monotonic()
@@ -185,7 +185,7 @@ class Session:
 def progress_text(done, samples):
     """Such as "Sample 5 of 32", for the share `done` of `samples`."""
     if done == 1:
-        return f"{samples} samples"
+        return counted(samples, "sample")
     number = int(done * samples) + 1
     return f"Sample {number}" if samples == ENDLESS else f"Sample {number} of {samples}"
 

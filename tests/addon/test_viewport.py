@@ -73,6 +73,13 @@ def test_the_picture_becomes_that_of_a_render(session):
     assert session.status == "6 samples"
 
 
+def test_one_sample_is_told_of_as_many_are(session):
+    session.show(SCENE)
+    session.look(At(), h.replaced(SETTINGS, samples=1))
+    finished(session)
+    assert session.status == "1 sample"
+
+
 def test_another_view_and_another_size_compile_nothing(session, monkeypatch):
     calls = counted(monkeypatch)
     session.show(SCENE)

@@ -12,6 +12,8 @@ DEPTH = 6
 """Nodes between the output and the last one, at most."""
 ODD = st.sampled_from((0.0, -0.0, 1.0, -1.0, 0.5, 2.0, 7.3, -3.7, 1e-30, 1e6, -1e6, 1e30, -1e30, inf, -inf))
 EVEN = st.sampled_from((0.0, 0.2, 0.5, 0.7, 1.0))
+JUNK = "Größe.001 名前 \N{SNOWMAN}"
+"""A name that Glanz does not know."""
 _GLOWS = ("ShaderNodeEmission", "ShaderNodeBackground", "ShaderNodeEeveeSpecular")
 _MODES = ("ENUM", "BOOLEAN")
 
@@ -90,3 +92,29 @@ def black_glow(tree):
             for link in list(strength.links):
                 tree.links.remove(link)
             strength.default_value = 0
+
+
+def rename(tree):
+    """Call everything in it JUNK, as far as Blender lets two things have one name."""
+    for node in tree.nodes:
+        node.name = node.label = JUNK
+        for socket in (*node.inputs, *node.outputs):
+            socket.name = JUNK
+    for item in tree.interface.items_tree if tree.interface else ():
+        item.name = JUNK
+
+
+def rename_all():
+    """The same for all node trees of the open file: of materials, worlds and lights, and groups."""
+    for owner in (*bpy.data.materials, *bpy.data.worlds, *bpy.data.lights):
+        if owner.node_tree:
+            rename(owner.node_tree)
+    for group in bpy.data.node_groups:
+        group.name = JUNK
+        rename(group)
+    bpy.context.view_layer.update()
+
+
+def nameless(lines):
+    """Warnings without the names of the nodes that they are about."""
+    return [line.partition(": node ")[0] for line in lines]
