@@ -64,13 +64,12 @@ class GLANZ_OT_check_scene(bpy.types.Operator):
             depsgraph = context.evaluated_depsgraph_get()
             settings = settings_of(depsgraph.scene_eval, depsgraph.view_layer_eval)
             exported = export_still(depsgraph, settings, findings)
-            _, lines = validate(exported, settings)
+            _, warnings = validate(exported, settings)
             features = Requirements.of(exported, settings).in_words()
         except GlanzError as error:
             self.report({"ERROR"}, describe(error))
             return {"CANCELLED"}
-        for line in lines:
-            findings.note(line, "")
+        findings.take(warnings)
         for ob in layer.objects:
             if ob.type in _RENDERED and not ob.hide_render and not ob.visible_get(view_layer=layer):
                 findings.note("it is hidden in 3D views, so it was not checked", f"object '{ob.name}'")

@@ -71,8 +71,8 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
         scenes, notes = export_views(depsgraph, settings, cameras, self._check, self.frame_set, findings)
         requirements = Requirements.of(scenes[0], settings)
         self._keep(depsgraph, requirements, findings)
-        if depsgraph.scene_eval.glanz.strict:
-            findings.raise_if_lost(depsgraph.scene_eval.name)
+        refuse_lost = partial(findings.raise_if_lost, depsgraph.scene_eval.name) if depsgraph.scene_eval.glanz.strict else lambda: None
+        refuse_lost()
         warnings.show(notes)
         stamp(self, metadata(scenes[0], settings, layer, requirements))
         self.update_stats("", "Preparing the scene")
@@ -86,9 +86,10 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
             # Closing the generator joins its threads, so none is left when Blender goes on, whatever happens here.
             with closing(rendering((layer, view), scene, settings, ends)) as progress:
                 for step in progress:
-                    warnings.show(step.warnings)
-                    for line in step.warnings:
-                        findings.note(line, "")
+                    if step.warnings:
+                        warnings.show(findings.take(step.warnings))
+                        self._keep(depsgraph, requirements, findings)
+                        refuse_lost()
                     for tile in step.tiles:
                         write_tile(self, tile, settings.region, layer, view)
                     outlines.show(step.in_work)

@@ -57,8 +57,11 @@ def info(arguments, terminal):
     scene, warnings = validate(shot.scene, shot.settings)
     settings = dataclasses.asdict(shot.settings)
     requirements = Requirements.of(scene, shot.settings)
-    by_kind = shot.by_kind | {"approximated": (*shot.by_kind.get("approximated", ()), *warnings)}
-    notes = [*shot.notes, *({"what": line, "kind": "approximated", "datablock": "", "name": "", "node": []} for line in warnings)]
+    notes, by_kind = [*shot.notes], dict(shot.by_kind)
+    for warning in warnings:
+        (datablock, name), kind = warning.datablock, "ignored" if warning.is_lost else "approximated"
+        notes.append({"what": warning.what, "kind": kind, "datablock": datablock, "name": name, "node": []})
+        by_kind[kind] = (*by_kind.get(kind, ()), warning)
     warnings = [*shot.warnings, *warnings]
     counts = {
         "objects": len(scene.objects),

@@ -21,7 +21,7 @@ from .cameras.orthographic import OrthographicCamera
 from .cameras.panorama import PanoramaCamera
 from .cameras.perspective import PerspectiveCamera
 from .constants import VERSION
-from .errors import FileError, GlanzError, SceneError
+from .errors import FileError, GlanzError, SceneError, SceneWarning
 from .interfaces import albedo_of
 from .io.exr import write_exr
 from .io.ies import parse_ies
@@ -196,6 +196,7 @@ __all__ = [
     "RoughRefraction",
     "Scene",
     "SceneError",
+    "SceneWarning",
     "Separate",
     "Settings",
     "Shade",

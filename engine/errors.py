@@ -1,4 +1,4 @@
-"""What can go wrong, as exceptions that name the cause and the cure."""
+"""What can go wrong: exceptions that name the cause and the cure, and warnings of what is rendered otherwise than asked for."""
 
 
 class GlanzError(Exception):
@@ -15,3 +15,25 @@ class FileError(GlanzError):
 
 class AccelError(GlanzError):
     """Input that Embree would answer with a crash, a hang or a lie."""
+
+
+class SceneWarning(str):
+    """A line for people, such as "its transform is not finite, so it is left out: object 'Cube'", that knows whom it is about.
+
+    what        happened
+    datablock   (kind, name) of whom it concerns, such as ("object", "Cube"); ("", ""): the line says it
+    is_lost     whether something is left out of the picture
+    """
+
+    __slots__ = ("datablock", "is_lost", "what")
+
+    def __new__(cls, what, kind="", name="", is_lost=False):
+        line = super().__new__(cls, f"{what}: {kind} '{name}'" if kind else what)
+        line.what, line.datablock, line.is_lost = what, (kind, name), is_lost
+        return line
+
+    @property
+    def owner(self):
+        """Whom it concerns, such as "object 'Cube'", or nothing."""
+        kind, name = self.datablock
+        return kind and f"{kind} '{name}'"

@@ -11,6 +11,7 @@ from itertools import pairwise
 import numpy as np
 
 from .constants import VERSION
+from .errors import SceneWarning
 from .plan import Plan
 from .registry import PASSES
 from .requirements import Requirements
@@ -44,7 +45,7 @@ class Tile:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Progress:
-    """What has happened since the last one: the share `done` in [0, 1], tiles to show, warnings that came up.
+    """What has happened since the last one: the share `done` in [0, 1], tiles to show, each `SceneWarning` that came up.
 
     in_work  (x, y, width, height) [px] of the tiles that threads are at just now
     """
@@ -76,7 +77,7 @@ def render(scene, settings, ends=()):
     scene, warnings = validate(scene, settings)
     yield Progress(0.0, warnings=warnings)
     plan = Plan.of(scene, settings, Requirements.of(scene, settings))
-    yield Progress(0.0, warnings=plan.world.warnings)
+    yield Progress(0.0, warnings=_more(plan, warnings))
     yield from render_plan(plan, ends)
 
 
@@ -88,7 +89,12 @@ def prepare(scene, settings, before=None):
     """
     scene, warnings = validate(scene, settings)
     plan = Plan.of(scene, settings, Requirements.of(scene, settings), before=before and before.world)
-    return plan, (*warnings, *plan.world.warnings)
+    return plan, (*warnings, *_more(plan, warnings))
+
+
+def _more(plan, warnings):
+    """What came up when a world was compiled, and was not known before."""
+    return tuple(line for line in plan.world.warnings if line not in warnings)
 
 
 def render_plan(plan, ends=(), cancelled=None):
@@ -227,7 +233,7 @@ class _Work:
     def take_warnings(self):
         with self._lock:
             bad, self._bad_samples = self._bad_samples, 0
-        return (f"{bad} samples were not finite and count as black",) if bad else ()
+        return (SceneWarning(f"{bad} samples were not finite and count as black"),) if bad else ()
 
 
 def _tiles(settings, longest_side):

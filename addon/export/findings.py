@@ -60,6 +60,12 @@ class Findings:
         """Record a `Note` of these fields."""
         self._notes[Note(what, owner, kind, node)] = True
 
+    def take(self, warnings):
+        """Record what the engine warns of, `SceneWarning`s, and return it in `grouped` lines."""
+        notes = [Note(w.what, w.owner, IGNORED if w.is_lost else APPROXIMATED) for w in warnings]
+        self._notes |= dict.fromkeys(notes, True)
+        return grouped(notes)
+
     @property
     def notes(self):
         """All notes in the order in which they came up."""

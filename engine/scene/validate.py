@@ -2,11 +2,12 @@
 
 import dataclasses
 import math
+from functools import cache
 
 import numpy as np
 
 from ..constants import EPS32
-from ..errors import SceneError
+from ..errors import SceneError, SceneWarning
 from ..interfaces import albedo_of
 from ..registry import BSDFS, CAMERAS, FILTERS, INTEGRATORS, LIGHTS, PASSES, SAMPLERS
 from .coordinates import Coordinates
@@ -19,7 +20,7 @@ from .visibility import hidden_from
 
 
 def validate(scene, settings):
-    """(scene, warnings): the scene without what cannot be rendered, and a line for each thing that was changed.
+    """(scene, warnings): the scene without what cannot be rendered, and a `SceneWarning` for each thing that is not as it says.
 
     Raises SceneError where no picture is possible: no camera, a camera that is not finite, unknown plug-ins.
     """
@@ -37,11 +38,12 @@ def validate(scene, settings):
         raise SceneError(f"scene '{scene.name}': {type(scene.camera).__name__} is not a camera")
     check_camera(scene.camera)
     warnings = []
-    objects = tuple(checked for o in scene.objects if (checked := _check_object(o, warnings)))
+    is_torn = cache(_is_torn)
+    objects = tuple(checked for o in scene.objects if (checked := _check_object(o, is_torn, warnings)))
     kept_lights = tuple(light for light in scene.lights if _check_light(light, warnings))
     if not INTEGRATORS[settings.integrator].samples_lights:
-        unseen = [light.name for light in kept_lights if not light.has_extent()]
-        warnings += [f"light '{name}' stays dark: it has no size, and '{settings.integrator}' sends no rays to lights" for name in unseen]
+        what = f"it has no size, and '{settings.integrator}' sends no rays to lights, so it stays dark"
+        warnings += [SceneWarning(what, "light", light.name) for light in kept_lights if not light.has_extent()]
     world = _check_world(scene.world, warnings)
     return dataclasses.replace(scene, objects=objects, lights=kept_lights, world=world), tuple(warnings)
 
@@ -62,13 +64,27 @@ def check_camera(camera):
     camera.check()
 
 
-def _check_object(o, warnings):
+def torn(o):
+    """The warning of an `Object` that loses triangles."""
+    return SceneWarning("triangles with a corner that is not finite or too far away are left out", "object", o.name, is_lost=True)
+
+
+def _is_torn(mesh):
+    finite = np.isfinite(mesh.vertices).all(axis=0)
+    # Vertices may belong to no triangle.
+    return not finite.all() and not finite[mesh.triangles].all()
+
+
+def _check_object(o, is_torn, warnings):
     if not (np.isfinite(o.world_from_object).all() and np.isfinite(o.motion).all()):
-        warnings.append(f"object '{o.name}' is left out: its transform is not finite")
+        warnings.append(SceneWarning("the transform is not finite, so it is left out", "object", o.name, is_lost=True))
         return None
     if not np.isfinite(o.mesh.shapes).all():
-        warnings.append(f"object '{o.name}' keeps its shape: a vertex of mesh '{o.mesh.name}' is not finite while the shutter is open")
+        what = f"a vertex of mesh '{o.mesh.name}' is not finite while the shutter is open, so it keeps its shape"
+        warnings.append(SceneWarning(what, "object", o.name))
         o = dataclasses.replace(o, mesh=o.mesh.at(0.0))
+    if is_torn(o.mesh):
+        warnings.append(torn(o))
     for material in o.materials:
         _check_material(material)
     return o
@@ -133,26 +149,28 @@ def _check_light(light, warnings):
         raise SceneError(f"{type(light).__name__} is not a light")
     numbers = [getattr(light, f.name) for f in dataclasses.fields(light) if f.name not in ("name", "shade", "group", "hidden_from")]
     if not all(np.isfinite(np.asarray(value, np.float64)).all() for value in numbers):
-        warnings.append(f"light '{light.name}' is left out: one of its values is not finite")
+        warnings.append(SceneWarning("one of its values is not finite, so it is left out", "light", light.name, is_lost=True))
         return False
     hidden_from(light.hidden_from, f"light '{light.name}'")
     if light.shade is not None:
-        _check_shade(light.shade, f"light '{light.name}'", warnings)
+        _check_shade(light.shade, light.name, warnings)
     # First what power() computes with.
     light.check()
     if min(light.power()) < 0:
-        warnings.append(f"light '{light.name}' is left out: it would take light away")
+        warnings.append(SceneWarning("it would take light away, so it is left out", "light", light.name, is_lost=True))
         return False
     return True
 
 
-def _check_shade(shade, owner, warnings):
+def _check_shade(shade, name, warnings):
+    owner = f"light '{name}'"
     if type(shade) is not Shade:
         raise SceneError(f"{owner}: its shade is {shade!r}, allowed: a Shade")
     shade.check(owner)
     _check_texture(shade.texture, owner)
     if any(getattr(part, "counts_bounces", False) for part in with_inner(shade.texture)):
-        warnings.append(f"{owner}: how often a path was scattered is not known where it meets the light, it counts as on the first bounce")
+        what = "how often a path was scattered is not known where it meets the light, it counts as on the first bounce"
+        warnings.append(SceneWarning(what, "light", name))
 
 
 def _check_world(world, warnings):
@@ -182,7 +200,7 @@ def _check_world(world, warnings):
         return world
     bad = ~((pixels >= 0) & (pixels < math.inf))
     count = np.count_nonzero(bad.any(axis=0))
-    warnings.append(f"world '{world.name}': {count} pixels of its picture are not finite or below 0 and count as black")
+    warnings.append(SceneWarning(f"{count} pixels of its picture are not finite or below 0 and count as black", "world", world.name))
     return dataclasses.replace(world, environment=dataclasses.replace(environment, pixels=np.where(bad, np.float32(0), pixels)))
 
 

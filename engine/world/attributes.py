@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..errors import SceneWarning
 from ..maths.murmur import id_of
 from ..maths.tangents import corner_tangents, flat_normals
 
@@ -91,9 +92,10 @@ def compile_attributes(parts, keep, material, wanted, objects, owner):
             count += here.size
             pieces.append(corners)
         corners = np.concatenate(pieces, axis=1)
-        lost = np.count_nonzero(~np.isfinite(corners).all(axis=0))
-        if lost:
-            warnings.append(f"{lost} triangles have {key[0]} coordinates that are not finite, which count as 0")
+        lost = np.nonzero(~np.isfinite(corners).all(axis=0))[0]
+        if lost.size:
+            what = f"{key[0]} coordinates that are not finite count as 0"
+            warnings += [SceneWarning(what, "object", objects[i].name) for i in np.unique(owner[np.isin(row, lost)])]
             corners = np.nan_to_num(corners, nan=0, posinf=0, neginf=0)
         found[key] = Attribute(row, corners)
     return found, tuple(warnings)

@@ -4,9 +4,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..errors import AccelError, SceneError
+from ..errors import AccelError, SceneError, SceneWarning
 from ..maths.vectors import cross, dot, length
 from ..scene.textured import asks_for_around
+from ..scene.validate import torn
 from ..scene.values import Material
 from .accel import Accel
 from .attributes import compile_attributes
@@ -150,7 +151,7 @@ def compile_world(
         away[[i for i, _ in changing]] = [frame.scale * m.away(frame.origin) for m in moving]
         vertices = moved_apart(vertices, indices, owner, bodies.layer.take(owner), away)
     corners, double_area, normal, usable = _measure(vertices, indices)
-    warnings = _report_unusable(usable)
+    warnings = [torn(scene.objects[i]) for i in np.unique(owner[~usable])]
     # A triangle without an area is never hit: leaving it out changes no picture. Emitters come last, but for what moves.
     rank = table.emission.any(axis=0)[material].astype(np.int8)
     faces = sum(part.owner.size for part in still)
@@ -204,7 +205,8 @@ def compile_world(
     camera = CameraSpace.of(scene.camera, frame)
     glow = TexturedGlow(table.glowing, triangles, attributes, frame, camera) if table.glowing else EVEN
     lights = Lights.of(scene.lights, environment, emitters, frame, radius, has_choice, samples_lights, glow, camera)
-    dark = (f"light '{name}' seems to be dark: its texture was black, below 0 or no number wherever looked at" for name in lights.dark)
+    seems_dark = "its texture was black, below 0 or no number wherever looked at, so it seems to be dark"
+    dark = (SceneWarning(seems_dark, "light", name) for name in lights.dark)
     return CompiledWorld(
         frame=frame,
         accel=accel,
@@ -289,11 +291,6 @@ def _measure(vertices, indices):
     normal = cross(exact[:, 1] - exact[:, 0], exact[:, 2] - exact[:, 0])
     double_area = length(normal)
     return corners, double_area, (normal / np.maximum(double_area, np.finfo(np.float64).tiny)).astype(np.float32), usable
-
-
-def _report_unusable(usable):
-    lost = np.count_nonzero(~usable)
-    return (f"{lost} triangles are left out: a corner is not finite or too far away",) if lost else ()
 
 
 def _smooth(parts, keep, flat):

@@ -9,6 +9,8 @@ from glanz.addon import checks, requirements_panel
 from glanz.addon.checks import check_of
 from glanz.tests.addon import blender
 
+TORN = "triangles with a corner that is not finite or too far away are left out"
+
 
 @pytest.fixture
 def scene():
@@ -92,16 +94,39 @@ def test_a_check_and_a_render_find_the_same(scene, tmp_path):
 
 def test_what_the_engine_warns_of_is_kept_with_the_others(scene, tmp_path):
     far = blender.new_mesh("Far", [(0, 0, 0), (1e30, 0, 0), (0, 1e30, 0)], [(0, 1, 2)])
-    blender.link("Far", far)
+    blender.link("Object", far)
+    bpy.ops.glanz.check_scene()
+    assert TORN not in whats()
     blender.render(tmp_path / "a.exr")
-    assert any("1 triangles are left out" in what for what in whats())
+    assert whats()[TORN].datablock == ("object", "Object")
+    assert whats()[TORN].kind == "ignored"
+
+
+def test_a_check_finds_vertices_that_are_no_numbers_and_strict_renders_refuse_them(scene, tmp_path):
+    """So it does for objects that share the mesh; the button selects them."""
+    mesh = blender.new_mesh("Torn", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    mesh.vertices[1].co.x = float("nan")
+    for name in ("One", "Two"):
+        blender.link(name, mesh)
+    bpy.ops.glanz.check_scene()
+    assert [note.datablock for note in found().notes if note.what == TORN] == [("object", "One"), ("object", "Two")]
+    button = next(b for b in drawn("differences").buttons if b.name == "Two")
+    bpy.ops.glanz.show(datablock=button.datablock, name=button.name, node=button.node)
+    assert bpy.context.view_layer.objects.active.name == "Two"
+    scene.glanz.strict = True
+    # The rest is not as in Blender either, which is not the point.
+    bpy.data.objects["Man"].hide_render = True
+    with pytest.raises(RuntimeError, match=r"corner that is not finite.*'One', object 'Two'"):
+        blender.render(tmp_path / "a.exr")
+    assert TORN in whats()
 
 
 def test_a_check_finds_what_the_engine_leaves_out_and_refuses(scene):
     blender.link("Lamp", bpy.data.lights.new("Lamp", "POINT")).data.shadow_soft_size = 0
     scene.glanz.integrator = "path_blind"
     bpy.ops.glanz.check_scene()
-    assert any(what.startswith("light 'Lamp' stays dark") for what in whats())
+    (dark,) = (note for note in found().notes if note.what.endswith("stays dark"))
+    assert dark.datablock == ("light", "Lamp")
     scene.camera.data.clip_start = 2 * scene.camera.data.clip_end
     with pytest.raises(RuntimeError, match="clip range"):
         bpy.ops.glanz.check_scene()

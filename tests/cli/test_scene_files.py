@@ -136,7 +136,12 @@ def test_a_warning_is_said_once_on_stderr(scene_file, capsys):
     assert main(["render", "warns.glanz", "--quiet"]) == 0
     out, err = capsys.readouterr()
     assert (out, err.count("\n")) == ("", 1)
-    assert err.startswith("glanz: warning: object 'lost'")
+    assert err == "glanz: warning: the transform is not finite, so it is left out: object 'lost'\n"
+    assert main(["info", "warns.glanz", "--json"]) == 0
+    content = json.loads(capsys.readouterr().out)
+    what = "the transform is not finite, so it is left out"
+    assert content["notes"] == [{"what": what, "kind": "ignored", "datablock": "object", "name": "lost", "node": []}]
+    assert content["warnings"] == [f"{what}: object 'lost'"]
 
 
 def test_info_says_who_asked_for_what(scene_file, capsys):

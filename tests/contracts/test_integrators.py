@@ -93,7 +93,7 @@ def test_blind_integrators_name_the_lights_that_stay_dark():
     scene = h.receiver([PointLight(name="Bulb", position=(1.0, 2.0, 2.0))])
     for integrator in INTEGRATORS.values():
         _, warnings = validate(scene, h.settings(integrator=integrator.key))
-        assert [w for w in warnings if "light 'Bulb' stays dark" in w] == list(warnings)
+        assert [w for w in warnings if "stays dark: light 'Bulb'" in w] == list(warnings)
         assert bool(warnings) != integrator.samples_lights
 
 

@@ -330,7 +330,7 @@ def test_coordinates_are_kept_for_the_triangles_that_ask():
 def test_coordinates_that_are_not_finite_count_as_0_and_are_told():
     mesh = t.with_uvs(h.quad((0, 0, 0), (2, 0, 0), (0, 2, 0)), ((0, np.nan, 1, 0), (0, 0, np.inf, 1)))
     image = rendering.render_image(t.facing(mesh, diffuse(t.PAINTED), world=1.0), h.settings())
-    assert image.warnings == ("2 triangles have uv coordinates that are not finite, which count as 0",)
+    assert image.warnings == ("uv coordinates that are not finite count as 0: object 'quad'",)
     assert np.isfinite(image.passes["Combined"]).all()
 
 

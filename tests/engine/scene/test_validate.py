@@ -17,10 +17,12 @@ from glanz.engine import (
     Phong,
     PointLight,
     SceneError,
+    SceneWarning,
     Settings,
     SpotLight,
     SunLight,
     World,
+    prepare,
     render,
     render_image,
 )
@@ -123,19 +125,19 @@ def test_unknown_plug_ins_are_refused_with_the_known_ones(changes, message):
 LEFT_OUT = {
     "object of NaN": (
         h.scene([h.thing(h.quad(name="chair"), matrix=h.affine(translation=(0, np.nan, 0)))]),
-        "object 'chair' is left out: its transform is not finite",
+        "the transform is not finite, so it is left out: object 'chair'",
     ),
     "light of NaN": (
         h.scene(lights=[PointLight(name="Lamp", intensity=(math.nan, 1, 1))]),
-        "light 'Lamp' is left out: one of its values is not finite",
+        "one of its values is not finite, so it is left out: light 'Lamp'",
     ),
     "light of inf": (
         h.scene(lights=[AreaLight(name="Lamp", world_from_light=h.affine(translation=(math.inf, 0, 0)))]),
-        "light 'Lamp' is left out: one of its values is not finite",
+        "one of its values is not finite, so it is left out: light 'Lamp'",
     ),
     "light below zero": (
         h.scene(lights=[SunLight(name="Sol", irradiance=(-1.0, 0, 0))]),
-        "light 'Sol' is left out: it would take light away",
+        "it would take light away, so it is left out: light 'Sol'",
     ),
 }
 
@@ -157,7 +159,7 @@ def test_what_can_be_left_out_is_and_the_rest_renders(name):
 def test_bad_pixels_of_an_environment_are_counted_and_black(values):
     checked, warnings = validate(under(holed(*values)), SETTINGS)
     bad = sum(not 0 <= value < math.inf for value in values)
-    assert warnings == (f"world 'Sky': {bad} pixels of its picture are not finite or below 0 and count as black",)
+    assert warnings == (f"{bad} pixels of its picture are not finite or below 0 and count as black: world 'Sky'",)
     expected = holed(*(value if 0 <= value < math.inf else 0 for value in values))
     assert h.same_bits(checked.world.environment.pixels, expected)
     assert np.isfinite(render_image(under(holed(*values)), SETTINGS).passes["Combined"]).all()
@@ -184,12 +186,29 @@ def test_a_bad_environment_is_refused_by_name(changes, message):
         EnvironmentMap(**{"name": "Sky", "pixels": GREY, **changes})
 
 
-def test_triangles_that_are_not_finite_are_counted():
-    vertices = np.array(h.quad().vertices)
-    vertices[0, 2] = np.nan
-    image = render_image(h.scene([h.thing(h.Mesh(name="torn", vertices=vertices, triangles=h.quad().triangles))]), SETTINGS)
-    assert len(image.warnings) == 1
-    assert "2 triangles are left out" in image.warnings[0]
+def with_corner(x, name="torn"):
+    """A square with one corner at `x`, and a vertex of no triangle that is no number."""
+    vertices = np.concatenate((h.quad().vertices, np.full((3, 1), np.nan)), axis=1)
+    vertices[0, 2] = x
+    return h.thing(h.Mesh(name=name, vertices=vertices, triangles=h.quad().triangles))
+
+
+def test_objects_that_lose_triangles_are_told_once_and_when_it_is_known():
+    """What is not finite is seen at a glance, what is too far away when the size of the scene is known."""
+    whole, torn, far = (with_corner(x, name) for x, name in ((0.5, "whole"), (np.nan, "torn"), (1e30, "far")))
+    scene = h.scene([whole, torn, far, h.replaced(torn, name="twin")])
+    _, warnings = validate(scene, SETTINGS)
+    assert [warning.datablock for warning in warnings] == [("object", "torn"), ("object", "twin")]
+    assert all(warning.is_lost for warning in warnings)
+    told = render_image(scene, SETTINGS).warnings
+    assert [warning.owner for warning in told] == ["object 'torn'", "object 'twin'", "object 'far'"]
+    assert {warning.what for warning in told} == {"triangles with a corner that is not finite or too far away are left out"}
+    assert prepare(scene, SETTINGS)[1] == told
+
+
+def test_a_warning_is_a_line_for_people():
+    assert SceneWarning("it glows", "light", "Lamp") == "it glows: light 'Lamp'"
+    assert SceneWarning("it rains") == "it rains" and not SceneWarning("it rains").owner
 
 
 def test_a_scene_that_is_fine_is_not_touched():

@@ -65,7 +65,7 @@ def test_triangles_without_an_area_or_a_number_are_left_out_and_the_latter_told(
     triangles = np.array([[0, 1, 2], [0, 1, 1], [0, 0, 0], [0, 1, 3], [0, 1, 4]]).T
     world = world_of(h.thing(h.Mesh(name="odd", vertices=vertices, triangles=triangles)))
     assert world.triangles.material.size == 1
-    assert world.warnings == ("2 triangles are left out: a corner is not finite or too far away",)
+    assert world.warnings == ("triangles with a corner that is not finite or too far away are left out: object 'odd'",)
 
 
 def test_each_triangle_wears_its_material():
