@@ -29,4 +29,6 @@ class NaivePath:
     def scatter(plan, rays, surface, reflection):
         u1 = plan.choose_lobe(plan, rays)
         wi, weight, pdf = reflection.scatter(surface, u1, plan.numbers.two(rays, Dimension.DIRECTION), uniformly=True)
+        # Which lobe sends light on matters where rays carry along what has scattered them.
+        reflection = reflection.of_direction(surface, wi) if plan.on_leaving else reflection
         return go_on(plan, rays, surface, reflection, wi, weight, np.full_like(pdf, np.inf))

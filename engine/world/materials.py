@@ -241,6 +241,21 @@ class Reflection:
         """The same with the indices of refraction `find`(k), (N,) or (3, N), or (3, 1) for all n lanes, in lobes that have one."""
         return replace(self, specular=tuple(_with_index(lobe, find, n) if hasattr(lobe.k, "ior") else lobe for lobe in self.specular))
 
+    def of_direction(self, surface, wi):
+        """The same, whose `chosen_lobe` among the rough ones is by how much each sends on of light from wi (3, N).
+
+        For directions that no lobe was chosen for. To choose a specular lobe takes the same numbers as before.
+        """
+        count = len(self.rough)
+        if count < 2:
+            return self
+        n, wo = surface.ns, surface.wo
+        values = [np.broadcast_to(replace(self, rough=(lobe,)).value(n, wo, wi), wi.shape).sum(axis=0) for lobe in self.rough]
+        thresholds = np.cumsum(values, axis=0)
+        thresholds *= np.divide(self._rough_share(), thresholds[-1], out=np.zeros_like(wi[0]), where=thresholds[-1] > 0)
+        last = np.broadcast_to(self.thresholds[count - 1 :], (len(self.thresholds) - count + 1, wi.shape[1]))
+        return replace(self, thresholds=np.concatenate((thresholds[:-1], last)))
+
     def without_specular(self):
         """The rough lobes alone."""
         if not self.specular:

@@ -25,6 +25,7 @@ from glanz.engine import (
 )
 from glanz.engine.scene.visibility import RAY_KINDS
 from glanz.engine.wavefront import holdouts, sights
+from glanz.engine.world.materials import Reflection
 from glanz.tests import helpers as h
 from glanz.tests.renders.test_clear_film import HALF, card, seen
 from glanz.tests.renders.test_costs import SETTINGS, entered, plain
@@ -148,6 +149,28 @@ def test_of_a_surface_of_both_kinds_one_is_lit(name):
     dull, gloss = Lambert((0.5,) * 3), Phong((0.1,) * 3, 3.0)
     both, one, full = lit_floor(light, dull, gloss), lit_floor(light, dull), lit_floor(LIGHTS[name], dull, gloss)
     assert abs(both.mean() / one.mean() - 1) <= 0.3 * (full.mean() / one.mean() - 1)
+
+
+def beside_a_wall(*kinds):
+    """The mean of 64 pixels by 256 samples of a dull and shiny floor that mirrors a wall, of radiance 4, which is half of what it sees."""
+    floor = Material(name="floor", lobes=(Lambert(HALF), Phong((0.3,) * 3, 20.0)))
+    wall = hidden(h.thing(h.quad((1e-3, 0, 0), (0, 40, 0), (0, 0, 40), name="wall"), GLOW), *kinds)
+    scene = h.receiver((), [wall], material=floor, distance=0.01, tilt=-0.8, size=1e-4)
+    return h.pixels(scene, h.settings(integrator="path_naive", max_depth=1, samples=256)).mean(axis=0).ravel().astype(np.float64)
+
+
+def test_directions_that_no_lobe_has_chosen_count_for_the_lobes_that_send_them_on():
+    """k_d L / 2 for a wall that is hidden from glossy rays, as there is of the Lambert lobe alone; the rest for the other one."""
+    dull, shiny, all_ = (beside_a_wall(*kinds) for kinds in (("glossy",), ("diffuse",), ()))
+    assert h.mean_is(dull, 1.0, floor=1e-3)
+    assert h.means_agree(dull + shiny, all_, floor=1e-3)
+    assert not beside_a_wall("diffuse", "glossy").any()
+
+
+def test_the_wall_catches_lobes_that_are_chosen_unseen(monkeypatch):
+    monkeypatch.setattr(Reflection, "of_direction", lambda reflection, surface, wi: reflection)
+    with pytest.raises(AssertionError):
+        test_directions_that_no_lobe_has_chosen_count_for_the_lobes_that_send_them_on()
 
 
 def test_what_is_hidden_from_all_is_as_if_it_were_not():
