@@ -1,7 +1,7 @@
-"""Persistent data: what frames before were compiled to, for those that are the same but for their camera.
+"""Persistent data: what frames before were exported as and compiled to, for those that are the same but for their camera.
 
-Each frame is exported anew, and its values are compared. So nothing that changes is overlooked, whatever Blender tells of it; to
-compile is what takes the time.
+Meshes and images are exported anew where Blender says that they have changed, or may have, see `export.kept`; all else is in each
+frame, and all values are compared. So nothing that changes is overlooked, and what takes the time is done once.
 """
 
 from dataclasses import fields, is_dataclass, replace
@@ -9,13 +9,24 @@ from dataclasses import fields, is_dataclass, replace
 import numpy as np
 
 from ..engine import Progress, prepare, render_plan
+from .export import Kept, stamp_of
 
 
-class Plans:
-    """The last plan of each view layer and view, by keys of any kind."""
+class Persistent:
+    """What stays from frame to frame: what was exported, and the last plan of each view layer and view, by keys of any kind."""
 
     def __init__(self):
+        self.kept = Kept(stamp_of)
         self._known = {}
+
+    def watched(self, depsgraph, frame_set):
+        """`frame_set`, after which is forgotten what Blender says it has changed."""
+
+        def go(frame, subframe):
+            frame_set(frame, subframe)
+            self.kept.forget(depsgraph)
+
+        return go
 
     def render(self, key, scene, settings, ends=()):
         """As the engine's `render`; nothing is compiled where `scene` differs from the last with this `key` in its camera alone."""
@@ -55,6 +66,8 @@ def is_same(a, b):
             return False
         seen.add((id(a), id(b)))
         if isinstance(a, np.ndarray):
+            if a.__array_interface__ == b.__array_interface__ and not a.dtype.hasobject:
+                continue
             if (a.dtype, a.shape) != (b.dtype, b.shape) or a.dtype.hasobject or a.tobytes() != b.tobytes():
                 return False
         elif is_dataclass(a):

@@ -31,7 +31,7 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
     # What serves the 3D view, in engines that are for one.
     viewport = None
     # What is kept from frame to frame, see `persistent`.
-    plans = None
+    persistent = None
 
     def __init__(self, *args, **kwargs):
         # Blender runs this twice for each engine, so there is nothing here.
@@ -41,6 +41,17 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
         """Called by Blender, also without a render: which passes there will be."""
         with errors_shown(self):
             passes.register_passes(self, scene, renderlayer)
+
+    def update(self, data=None, depsgraph=None):
+        """Called by Blender before each `render`, with the scene as it will be: what has changed is told now, and only now."""
+        if self.persistent:
+            with errors_shown(self):
+                self.persistent.kept.forget(depsgraph)
+
+    def render_frame_finish(self):
+        """Called by Blender when all view layers of a frame are rendered."""
+        if self.persistent:
+            self.persistent.kept.tidy()
 
     def render(self, depsgraph):
         """Called by Blender for each view layer of each frame."""
@@ -56,7 +67,7 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
 
     def _render(self, depsgraph):
         from ..engine import Requirements, metadata, render
-        from .export import Findings, export_views
+        from .export import Findings, Kept, export_views
         from .results import Outlines, make_room, outcome, stamp, write_tile
         from .settings import doubling, settings_of
 
@@ -68,7 +79,10 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
         self.update_stats("", "Exporting the scene")
         warnings = Warnings(self)
         findings, cameras = Findings(), [partial(self._camera, view) for view in views]
-        scenes, notes = export_views(depsgraph, settings, cameras, self._check, self.frame_set, findings)
+        persistent = self._persistent(depsgraph.scene_eval)
+        frame_set = persistent.watched(depsgraph, self.frame_set) if persistent else self.frame_set
+        kept = persistent.kept if persistent else Kept()
+        scenes, notes = export_views(depsgraph, settings, cameras, self._check, frame_set, findings, kept)
         requirements = Requirements.of(scenes[0], settings)
         self._keep(depsgraph, requirements, findings)
         refuse_lost = partial(findings.raise_if_lost, depsgraph.scene_eval.name) if depsgraph.scene_eval.glanz.strict else lambda: None
@@ -77,7 +91,7 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
         stamp(self, metadata(scenes[0], settings, layer, requirements))
         self.update_stats("", "Preparing the scene")
         ends = doubling(settings) if depsgraph.scene_eval.glanz.progress == "FRAME" else ()
-        rendering = self._plans(depsgraph.scene_eval) or (lambda key, *asked: render(*asked))
+        rendering = persistent.render if persistent else lambda key, *asked: render(*asked)
         status, outlines = Status(self, settings.samples), Outlines(self, settings.region)
         for number, (view, scene) in enumerate(zip(views, scenes, strict=True)):
             where = ", ".join((*((layer,) if len(depsgraph.scene_eval.view_layers) > 1 else ()), *((view,) if view else ())))
@@ -104,15 +118,15 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
         self._keep(depsgraph, requirements, findings)
         warnings.close()
 
-    def _plans(self, scene):
-        """How to render what may be like a frame before, where the scene asks for persistent data: Blender then keeps this engine."""
+    def _persistent(self, scene):
+        """What stays from frame to frame, where the scene asks for persistent data: Blender then keeps this engine. Else None."""
         if not scene.render.use_persistent_data:
-            self.plans = None
+            self.persistent = None
             return None
-        from .persistent import Plans
+        from .persistent import Persistent
 
-        self.plans = self.plans or Plans()
-        return self.plans.render
+        self.persistent = self.persistent or Persistent()
+        return self.persistent
 
     @staticmethod
     def _keep(depsgraph, requirements, findings):

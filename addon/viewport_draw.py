@@ -78,7 +78,8 @@ class Viewport:
 
     def _export(self, space, depsgraph):
         self._is_local, self._cast = bool(space.local_view), _cast(space, depsgraph)
-        self._kept.update(depsgraph)
+        self._kept.forget(depsgraph)
+        self._kept.tidy()
         try:
             self._scene, self._notes = export_contents(depsgraph, self._kept, lambda ob: ob.visible_in_viewport_get(space))
             self._failure = ""

@@ -3,7 +3,9 @@
 import numpy as np
 
 from ...engine import Bitmap
-from .images import MAGENTA, frame_shown, has_codes_cut, note_missing, texels_of, tiles_of
+from .changes import identities
+from .images import MAGENTA, frame_shown, has_codes_cut, linear_pixels, note_missing, texels_of, tiles_of
+from .stamps import no_stamp
 
 _MAGENTA = Bitmap(name="missing", pixels=np.array(MAGENTA[:3], np.float32)[:, None, None])
 
@@ -11,14 +13,18 @@ _MAGENTA = Bitmap(name="missing", pixels=np.array(MAGENTA[:3], np.float32)[:, No
 class Bitmaps:
     """Engine values of the images met so far, at a `frame` of the scene.
 
-    known  those of earlier exports
-    asked  those of this one
+    stamp  (image, frame) -> what is the same for as long as its pixels are, None where that is for this export only
     """
 
-    def __init__(self, frame=1, known=None):
-        self._frame = frame
-        self._known = {} if known is None else known
-        self.asked = {}
+    def __init__(self, frame=1, stamp=no_stamp):
+        self._stamp = stamp
+        self._known, self._wanted = {}, set()
+        self.begin(frame)
+
+    def begin(self, frame):
+        """The same for an export at a `frame`, which begins."""
+        self._frame, self._export = frame, object()
+        return self
 
     def of(self, image, note, user=None, is_uncut=False):
         """The `Bitmap` of an image datablock, magenta where it is None or has no pixels, which `note` is told.
@@ -27,8 +33,8 @@ class Bitmaps:
         is_uncut  its colours will be divided by alpha
         """
         frame = self.frame_of(image, user)
-        key = image and (image.name_full, frame, is_uncut and has_codes_cut(image))
-        found = self._once(key, lambda: _found(image, texels_of(image, frame, is_uncut)))
+        cut = is_uncut and bool(image) and has_codes_cut(image)
+        found = self._once(image, frame, cut, lambda: _found(image, texels_of(image, frame, is_uncut)))
         if found is None:
             note_missing(note, image)
         return found or _MAGENTA
@@ -42,17 +48,40 @@ class Bitmaps:
         if not image or image.source != "TILED":
             return ()
         found = self._once(
-            (image.name_full, "tiles", is_uncut and has_codes_cut(image)),
+            image,
+            "tiles",
+            is_uncut and has_codes_cut(image),
             lambda: tuple((number, _found(image, texels)) for number, texels in tiles_of(image, is_uncut)),
         )
         for number in (number for number, bitmap in found if bitmap is None):
             note_missing(note, image, number)
         return tuple(tile for tile in found if tile[1])
 
-    def _once(self, key, make):
+    def light(self, image, note, user):
+        """The pixels (3, H, W) of an image as light, see `images.linear_pixels`; the rest is as of `of`."""
+        frame = self.frame_of(image, user)
+        found = self._once(image, frame, "light", lambda: linear_pixels(image, frame))
+        if found is None:
+            note_missing(note, image)
+        return (_MAGENTA.pixels if found is None else found)[:3]
+
+    def forget(self, images):
+        """Forget those of `images`, see `changes`; None: all."""
+        self._known = {key: value for key, value in self._known.items() if images is not None and images.isdisjoint(key[0])}
+
+    def tidy(self):
+        """Forget those that nobody has asked for since this was called the last time."""
+        self._known = {key: value for key, value in self._known.items() if key in self._wanted}
+        self._wanted = set()
+
+    def _once(self, image, frame, kind, make):
+        if image is None:
+            return None
+        stamp = self._stamp(image, frame)
+        key = frozenset(identities(image)), image.name_full, frame, kind, self._export if stamp is None else stamp
         if key not in self._known:
             self._known[key] = make()
-        self.asked[key] = self._known[key]
+        self._wanted.add(key)
         return self._known[key]
 
 

@@ -6,14 +6,13 @@ import numpy as np
 
 from ...engine import Coordinates, EnvironmentMap, EnvironmentTexture
 from .colours import terms_of, varies
-from .images import linear_pixels
 
 _DIRECTION = Coordinates(source="position")
 _INTERPOLATIONS = {"Linear": "linear", "Closest": "closest"}
 
 
 def _environment(reader, node, output):
-    pixels = linear_pixels(node.image, reader.note, reader.bitmaps.frame_of(node.image, node.image_user))[:3]
+    pixels = reader.bitmaps.light(node.image, reader.note, node.image_user)
     if node.interpolation not in _INTERPOLATIONS:
         reader.note(f"the interpolation {node.interpolation} of Environment Texture is rendered as Linear")
     if node.projection == "MIRROR_BALL":

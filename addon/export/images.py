@@ -41,8 +41,7 @@ def tiles_of(image, is_uncut=False):
     """((number, (texels, is_srgb) or None where it is missing), ...) of a tiled image."""
     image = image.original
     found, packed = [], {_name(f.filepath): f for f in image.packed_files}
-    for tile in image.tiles:
-        path = _path(image, image.filepath.replace("<UDIM>", str(tile.number)).replace("<UVTILE>", _uv_name(tile.number)))
+    for tile, path in zip(image.tiles, paths_of(image), strict=True):
         content = packed.get(_name(path))
         read = pixels_of_data(content.packed_file.data, path, image) if content else pixels_of_file(path, image)
         if not read and len(image.tiles) == 1:
@@ -53,15 +52,14 @@ def tiles_of(image, is_uncut=False):
     return tuple(found)
 
 
-def linear_pixels(image, note, frame=None):
+def linear_pixels(image, frame=None):
     """(4, H, W) float32: red, green, blue, scene-linear and multiplied by alpha, and alpha; row 0 is the top.
 
-    An image that is missing, or None, is one pixel of magenta; `note` is told, see `note_missing`.
+    None for an image that is missing or None.
     """
     found = texels_of(image, frame)
     if found is None:
-        note_missing(note, image)
-        return np.array(MAGENTA, np.float32)[:, None, None]
+        return None
     texels, is_srgb = found
     pixels = np.moveaxis(texels[::-1], 2, 0)
     if texels.dtype != np.uint8:
@@ -79,6 +77,17 @@ def note_missing(note, image, tile=None):
     note(f"{of_tile}the image {repr(image.name) + ' ' if image else ''}is missing and is rendered magenta", MISSING)
 
 
+def paths_of(image, frame=None):
+    """The paths of the files that an image datablock shows, whether they are there or not: of its tiles; of a `frame` of a sequence."""
+    path = image.filepath
+    if image.source == "TILED":
+        numbers = [tile.number for tile in image.tiles]
+        found = [path.replace("<UDIM>", str(number)).replace("<UVTILE>", _uv_name(number)) for number in numbers]
+    else:
+        found = [_numbered(path, frame) if image.source == "SEQUENCE" else path]
+    return tuple(bpy.path.abspath(path, library=image.library) for path in found)
+
+
 def is_cut_by_alpha(image):
     """Whether the colours of an image are multiplied by its alpha; what is no colour is not."""
     return bool(image) and image.alpha_mode not in ("NONE", "CHANNEL_PACKED") and not image.colorspace_settings.is_data
@@ -87,10 +96,10 @@ def is_cut_by_alpha(image):
 def _read(image, frame):
     """(pixels, is_float), or None."""
     if image.source == "SEQUENCE":
-        return pixels_of_file(_path(image, _numbered(image.filepath, frame)), image)
+        return pixels_of_file(*paths_of(image, frame), image)
     # A movie has a colour space when its pixels have been looked at.
     if image.source == "MOVIE" and len(image.pixels):
-        return pixels_of_file(_path(image, image.filepath), image, frame)
+        return pixels_of_file(*paths_of(image), image, frame)
     pixels = pixels_in(image)
     return None if pixels is None else (pixels, image.is_float)
 
@@ -142,10 +151,6 @@ def _of_four(pixels):
     if channels == 2:
         result[..., 3] = pixels[..., 1]
     return result
-
-
-def _path(image, path):
-    return bpy.path.abspath(path, library=image.library)
 
 
 def _name(path):

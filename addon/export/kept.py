@@ -1,17 +1,24 @@
-"""What a viewport does not export again: meshes and images that are as they were."""
+"""What is not exported again: meshes and images that are as they were."""
 
 from .bitmaps import Bitmaps
-
-_SHAPES = ("MESH", "CURVE", "CURVES", "META", "LATTICE", "ARMATURE", "KEY")
-"""Blender's types of data-blocks that make shapes."""
+from .changes import changed_images, changed_shapes, identities
+from .stamps import no_stamp
 
 
 class Kept:
-    """The engine's meshes and bitmaps, by the data-blocks that they are of."""
+    """The engine's meshes and bitmaps, by the data-blocks that they are of.
 
-    def __init__(self):
-        self._before, self._asked = {}, {}
-        self._bitmaps = Bitmaps()
+    stamp  what else tells that an image has changed, see `stamps`
+    """
+
+    def __init__(self, stamp=no_stamp):
+        self._meshes, self._wanted, self._exported = {}, set(), set()
+        self._bitmaps = Bitmaps(stamp=stamp)
+
+    def begin(self, frame):
+        """`Bitmaps` for an export at a frame of the scene, which begins."""
+        self._exported = set()
+        return self._bitmaps.begin(frame)
 
     def mesh(self, ob, attributes, make):
         """The engine's mesh of an object (evaluated) for these attributes: as it is known, or else what `make()` says.
@@ -20,36 +27,25 @@ class Kept:
         object, or to the same data-block of the file.
         """
         key = ob.data.as_pointer(), attributes
-        own = _owners(ob)
-        owners, mesh = self._asked.get(key) or self._before.get(key, (set(), None))
+        own = identities(ob, ob.data)
+        owners, mesh = self._meshes.get(key, (set(), None))
         # Within an export no address is another's.
-        if key not in self._asked and owners.isdisjoint(own):
+        if key not in self._exported and owners.isdisjoint(own):
             owners, mesh = set(), make()
         owners.update(own)
-        self._asked[key] = owners, mesh
+        self._meshes[key] = owners, mesh
+        self._wanted.add(key)
+        self._exported.add(key)
         return mesh
 
-    def bitmaps(self, frame):
-        """`Bitmaps` for a frame of the scene, which knows the images of earlier exports."""
-        self._bitmaps = Bitmaps(frame, self._bitmaps.asked)
-        return self._bitmaps
+    def forget(self, depsgraph):
+        """Forget what Blender says has changed; to be called after each evaluation of the scene, as it tells but once."""
+        shapes, images = changed_shapes(depsgraph), changed_images(depsgraph)
+        self._meshes = {key: value for key, value in self._meshes.items() if shapes is not None and not value[0] & shapes}
+        self._bitmaps.forget(images)
 
-    def update(self, depsgraph):
-        """Forget what Blender says has changed, and what nobody asked for since the last time; to be called before each export."""
-        if depsgraph.id_type_updated("IMAGE"):
-            self._bitmaps = Bitmaps()
-        updates = [update for update in depsgraph.updates if update.is_updated_geometry]
-        changed = {_identity(update.id) for update in updates}
-        is_known = bool(updates) or not any(map(depsgraph.id_type_updated, _SHAPES))
-        self._before = {key: value for key, value in self._asked.items() if is_known and not value[0] & changed}
-        self._asked = {}
-
-
-def _owners(ob):
-    return {_identity(ob), _identity(ob.data)}
-
-
-def _identity(datablock):
-    """What stays of a data-block of the file for as long as Blender runs, whatever copies are evaluated of it."""
-    original = datablock.original or datablock
-    return getattr(original, "session_uid", 0) or original.as_pointer()
+    def tidy(self):
+        """Forget what nobody has asked for since this was called the last time."""
+        self._meshes = {key: value for key, value in self._meshes.items() if key in self._wanted}
+        self._wanted = set()
+        self._bitmaps.tidy()

@@ -20,7 +20,7 @@ def export_scene(depsgraph, settings, view=None, check=lambda: None, frame_set=N
     return scenes[0], warnings
 
 
-def export_views(depsgraph, settings, views, check=lambda: None, frame_set=None, findings=None):
+def export_views(depsgraph, settings, views, check=lambda: None, frame_set=None, findings=None, kept=None):
     """(scenes, warnings): the engine's `Scene` for each view of an evaluated `depsgraph`, and what is not as in Blender, in lines.
 
     settings   the engine's `Settings`, for the size of the frame
@@ -29,6 +29,7 @@ def export_views(depsgraph, settings, views, check=lambda: None, frame_set=None,
     check      called now and then; may raise to stop the export
     frame_set  goes to (frame, fraction of a frame), for motion blur and vectors; the frame is restored. None: nothing moves
     findings   `Findings` that keep the warnings as notes, too
+    kept       what was exported before, a `Kept`, if any
     Raises SceneError naming the object for which no picture is possible.
     """
     findings = findings or Findings()
@@ -42,7 +43,8 @@ def export_views(depsgraph, settings, views, check=lambda: None, frame_set=None,
         cameras = [_camera_track(depsgraph, settings, view, blurs) for view in views]
         _note_ignored(scene, findings)
         tracks = (Tracks if blurs else Beside)(shutter, depsgraph, cameras, findings, check) if shutter else STILL
-        contents = _contents(depsgraph, findings, Kept(), check, tracks, asked=attributes(settings.passes), aovs=aovs(settings.passes))
+        asked = {"asked": attributes(settings.passes), "aovs": aovs(settings.passes)}
+        contents = _contents(depsgraph, findings, kept or Kept(), check, tracks, **asked)
     scenes = tuple(
         Scene(name=scene.name, camera=camera.moved(shutter, findings), camera_beside=camera.beside(), **contents) for camera in cameras
     )
@@ -91,7 +93,7 @@ def _hidden_in_renders(layer_collection):
 
 def _contents(depsgraph, findings, kept, check=lambda: None, tracks=STILL, is_shown=lambda ob: True, **asked):
     """What `Scene`s have but for their cameras, {name: value}."""
-    layer, bitmaps = depsgraph.view_layer_eval, kept.bitmaps(depsgraph.scene_eval.frame_current)
+    layer, bitmaps = depsgraph.view_layer_eval, kept.begin(depsgraph.scene_eval.frame_current)
     override = _evaluated(layer.material_override, depsgraph)
     world = _evaluated(getattr(layer, "world_override", None) or depsgraph.scene_eval.world, depsgraph)
     world = export_world(world, findings, bitmaps, asked.get("aovs", ()))

@@ -10,6 +10,7 @@ from glanz.addon import persistent
 from glanz.addon.persistent import is_same
 from glanz.engine import plan as plans
 from glanz.tests.addon import blender
+from glanz.tests.addon.export.test_images import sequence
 
 
 @pytest.fixture
@@ -26,6 +27,11 @@ def compiled(monkeypatch):
 
 def _frames(folder, count=2):
     """The pictures of an animation."""
+    return [passes["ViewLayer.Combined"] for passes in _all_passes(folder, count)]
+
+
+def _all_passes(folder, count=2):
+    """The passes of each frame of an animation."""
     scene = bpy.context.scene
     scene.frame_start, scene.frame_end = 1, count
     image = scene.render.image_settings
@@ -34,7 +40,9 @@ def _frames(folder, count=2):
     image.file_format, image.color_depth = "OPEN_EXR_MULTILAYER", "32"
     scene.render.filepath = f"{folder}/####.exr"
     bpy.ops.render.render(animation=True)
-    return [blender.read_exr(folder / f"{frame:04}.exr")["ViewLayer.Combined"] for frame in range(1, count + 1)]
+    # The eyes of a stereo camera have a file each.
+    files = [sorted(folder.glob(f"{frame:04}*.exr")) for frame in range(1, count + 1)]
+    return [{path.stem[4:] + name: values for path in eyes for name, values in blender.read_exr(path).items()} for eyes in files]
 
 
 def _animate(owner, path, first, second):
@@ -110,6 +118,63 @@ def test_frames_are_those_without_persistent_data(change, compiled, tmp_path):
     else:
         np.testing.assert_array_equal(kept, fresh)
     assert (kept[0] != kept[1]).any() == (change != "nothing")
+
+
+def _moving_picture(plane, folder):
+    image = sequence(folder, (1, 2, 3))
+    image.name = "Sequence"
+    material = blender.new_material("Poster", "ShaderNodeEmission")
+    node = material.node_tree.nodes.new("ShaderNodeTexImage")
+    node.image, node.image_user.frame_duration = image, 3
+    material.node_tree.links.new(node.outputs[0], material.node_tree.nodes["Emission"].inputs["Color"])
+    plane.data.materials.append(material)
+
+
+def _layers():
+    """One that has all, one without what is in a collection, whose materials are all the same, and a world that is another."""
+    scene = bpy.context.scene
+    other = scene.view_layers.new("Other")
+    other.material_override = blender.new_material("Lamp", "ShaderNodeEmission", Color=(0, 3, 0, 1), Strength=1)
+    collection = bpy.data.collections.new("Collection")
+    scene.collection.children.link(collection)
+    collection.objects.link(bpy.data.objects.new("Hidden", bpy.data.meshes["Tetrahedron"]))
+    other.layer_collection.children["Collection"].exclude = True
+
+
+def _eyes():
+    render = bpy.context.scene.render
+    render.use_multiview, render.image_settings.views_format = True, "INDIVIDUAL"
+
+
+def _blur():
+    render = bpy.context.scene.render
+    render.use_motion_blur, render.motion_blur_shutter = True, 1.5
+
+
+def test_layers_eyes_and_blur_are_those_without_persistent_data(compiled, tmp_path):
+    """Frames of what moves, bends, comes and goes, of a sequence, and of instances, in all passes, to the bit."""
+    plane, bent = blender.add_plane("Poster", size=3), blender.add_plane("Bent", size=2)
+    _shape(bent)
+    _moving_picture(plane, tmp_path)
+    moved = blender.add_tetrahedron()
+    _animate(moved, "location", (0, 0, 0), (0.5, 0, 0.2))
+    instancer = blender.add_plane("Instancer", size=4)
+    instancer.instance_type = "VERTS"
+    instance = blender.add_tetrahedron("Instance")
+    instance.parent = instancer
+    _animate(instance, "scale", (1, 1, 1), (0.5, 0.5, 0.5))
+    _animate(blender.add_plane("Gone", location=(0, 0, 1)), "hide_render", True, False)
+    _layers(), _eyes(), _blur()
+    bpy.context.scene.glanz.samples = 1
+    kept = _all_passes(tmp_path)
+    bpy.context.scene.render.use_persistent_data = False
+    fresh = _all_passes(tmp_path)
+    assert len(kept[0]) == 4, kept[0].keys()
+    for one, other in zip(kept, fresh, strict=True):
+        assert one.keys() == other.keys()
+        for name in one:
+            np.testing.assert_array_equal(one[name], other[name], name)
+    assert (kept[0]["_LViewLayer.Combined"] != kept[1]["_LViewLayer.Combined"]).any()
 
 
 def test_a_change_that_is_overlooked_would_be_seen_here(compiled, tmp_path, monkeypatch):

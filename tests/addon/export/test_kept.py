@@ -30,7 +30,8 @@ class Viewer:
         self.look(bpy.context.evaluated_depsgraph_get())
 
     def look(self, depsgraph):
-        self.kept.update(depsgraph)
+        self.kept.forget(depsgraph)
+        self.kept.tidy()
         scene, self.warnings = export_contents(depsgraph, self.kept)
         self.meshes = {o.name: o.mesh for o in scene.objects}
         self.objects = {o.name: o for o in scene.objects}
@@ -88,11 +89,11 @@ def test_without_a_look_at_owners_another_mesh_at_the_same_address_would_be_take
     def taken():
         kept = Kept()
         first = kept.mesh(thing(2), (), lambda: "first")
-        kept._before, kept._asked = kept._asked, {}
+        kept.begin(1)
         return first, kept.mesh(thing(7), (), lambda: "second")
 
     assert taken() == ("first", "second")
-    monkeypatch.setattr(module, "_owners", lambda ob: {0})
+    monkeypatch.setattr(module, "identities", lambda *datablocks: {1})
     assert taken() == ("first", "first")
 
 
@@ -183,6 +184,8 @@ def test_pictures_that_are_not_asked_for_any_more_are_forgotten():
     for i in range(4):
         texture.image = bpy.data.images.new(f"Frame {i}", 4, 4)
         depsgraph = bpy.context.evaluated_depsgraph_get()
-        kept.update(depsgraph)
+        kept.forget(depsgraph)
+        kept.tidy()
         export_contents(depsgraph, kept)
-    assert len(kept._bitmaps.asked) == 1
+    kept.tidy()
+    assert len(kept._bitmaps._known) == 1

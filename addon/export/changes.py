@@ -1,0 +1,42 @@
+"""What Blender says has changed since it told the last time, and what of it may concern shapes and images."""
+
+import bpy
+
+_SHAPES = ("MESH", "CURVE", "CURVES", "META", "LATTICE", "ARMATURE", "KEY")
+"""Blender's types of data-blocks that make shapes."""
+
+
+def identities(*datablocks):
+    """What stays of data-blocks of the file for as long as Blender runs, whatever copies are evaluated of them; a set.
+
+    What is no part of the file, such as meshes that nodes make, has nothing that stays.
+    """
+    return {getattr(d.original or d, "session_uid", 0) for d in datablocks if d is not None} - {0}
+
+
+def changed_shapes(depsgraph):
+    """`identities` of what may have another shape, None where that may be anything."""
+    updates = list(depsgraph.updates)
+    told = {update.id.id_type for update in updates}
+    # Blender may say that something of a type has changed, and not what.
+    if any(depsgraph.id_type_updated(kind) and kind not in told for kind in _SHAPES):
+        return None
+    return identities(*(update.id for update in updates if update.is_updated_geometry or _is_anything(update)))
+
+
+def _is_anything(update):
+    is_told = update.is_updated_transform or update.is_updated_shading
+    return not is_told and update.id.id_type in ("OBJECT", *_SHAPES)
+
+
+def changed_images(depsgraph):
+    """`identities` of images that may have changed, as far as Blender tells of it: see `stamps`. None where that may be any.
+
+    Of images that were loaded again Blender says no more than that node trees have changed which show them.
+    """
+    updates = list(depsgraph.updates)
+    images = [update.id for update in updates if isinstance(update.id, bpy.types.Image)]
+    if depsgraph.id_type_updated("IMAGE") and not images:
+        return None
+    trees = [update.id for update in updates if isinstance(update.id, bpy.types.NodeTree)]
+    return identities(*images, *(getattr(node, "image", None) for tree in trees for node in tree.nodes))
