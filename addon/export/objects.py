@@ -205,7 +205,7 @@ class _Parts:
             return None
         # Slots, not the mesh's own list: they know which materials are linked to the object instead.
         materials = [self._override or slot.material for slot in ob.material_slots] or [self._override]
-        if all(is_volume_only(material) for material in materials):
+        if all(map(self._is_volume_only, materials)):
             self._findings.note(_NOT_RENDERED["VOLUME"], f"object '{ob.name}'", IGNORED)
             return None
         self._note_ignored(ob)
@@ -233,9 +233,15 @@ class _Parts:
                 note_missing(datablock, f"{kind} '{datablock.name}'", self._findings)
 
     def _material(self, material):
-        key = material.as_pointer() if material else None
+        return self._once(material, "all", lambda: export_material(material, self._findings, self._bitmaps, self._aovs))
+
+    def _is_volume_only(self, material):
+        return self._once(material, "volume", lambda: is_volume_only(material))
+
+    def _once(self, material, what, make):
+        key = what, material.as_pointer() if material else None
         if key not in self._materials:
-            self._materials[key] = export_material(material, self._findings, self._bitmaps, self._aovs)
+            self._materials[key] = make()
         return self._materials[key]
 
     def _note_ignored(self, ob):

@@ -13,7 +13,9 @@ _depths = weakref.WeakKeyDictionary()
 
 def is_texture(value):
     """Whether a parameter is a texture."""
-    return type(value) in TEXTURES.values()
+    # Most values are numbers: this is asked of all.
+    kind = type(value)
+    return TEXTURES.get(getattr(kind, "key", None)) is kind
 
 
 def inputs_of(texture):

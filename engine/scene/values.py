@@ -5,6 +5,7 @@ World space is right-handed with z up, as Blender's. Nothing here knows how it w
 
 import math
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -228,7 +229,7 @@ class Material:
             if not is_texture(getattr(self, name)):
                 object.__setattr__(self, name, tuple(float(c) for c in getattr(self, name)))
 
-    @property
+    @cached_property
     def attributes(self):
         """What its textures are looked up at: a set of `Coordinates.attribute`."""
         return attributes_of(self)
