@@ -66,7 +66,7 @@ class Viewport:
             self._session.look(None, None)
         if view:
             self._show(view.rectangle, depsgraph.scene)
-        self._tell(failure or self._session.status, _ignored(space, context.region_data))
+        self._tell(failure or self._session.status, _ignored(space, context.region_data, depsgraph.scene))
         if self._session.is_busy and not self._is_ticking:
             self._is_ticking = True
             bpy.app.timers.register(self._tick, first_interval=_TICK_SECONDS)
@@ -134,11 +134,12 @@ def close_all():
         viewport.close()
 
 
-def _ignored(space, region_data):
-    """What a 3D view asks for and does not get, in lines."""
+def _ignored(space, region_data, scene):
+    """What a 3D view, or its scene (original), asks for and does not get there, in lines."""
     shading = space.shading
     return (
         *(("the clipping region is ignored",) if region_data.use_clip_planes else ()),
+        *(("motion blur is rendered by F12 alone",) if scene.render.use_motion_blur else ()),
         *(() if shading.use_scene_lights_render else ("Scene Lights is off, but they are rendered",)),
         *(() if shading.use_scene_world_render else ("Scene World is off, but it is rendered",)),
     )

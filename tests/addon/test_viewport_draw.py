@@ -158,6 +158,10 @@ def test_what_the_view_asks_for_and_does_not_get_is_told(views):
     try:
         views.draw()
         assert views.engine.told[1] == "Scene World is off, but it is rendered"
+        bpy.context.scene.render.use_motion_blur = True
+        views.draw()
+        assert views.engine.told[1] == "motion blur is rendered by F12 alone and 1 more"
+        bpy.context.scene.render.use_motion_blur = False
         shading.use_scene_lights_render = False
         views.draw()
         assert views.engine.told[1] == "Scene Lights is off, but they are rendered and 1 more"
