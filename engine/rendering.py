@@ -270,19 +270,19 @@ def _render_tile(plan, place, work, samples):
             paths += rays.slot.size
             work.finish(place, (number + paths / (pixels.px.size * (end - begin))) / tile.most_rounds(plan.settings))
             if time.monotonic() - shown > SHOW_SECONDS:
-                work.show(_tile(plan, place, tile.result(), is_final=False))
+                work.show(_tile(plan, place, tile, is_final=False))
                 shown = time.monotonic()
         work.count_bad(film.bad_samples)
         film.bad_samples = 0
     if samples[1] < end:
         work.tiles[place] = tile
-        return _tile(plan, place, tile.result(), is_final=False)
+        return _tile(plan, place, tile, is_final=False)
     work.finish(place, 1)
-    return _tile(plan, place, tile.result(), is_final=True)
+    return _tile(plan, place, tile, is_final=True)
 
 
-def _tile(plan, place, values, is_final):
-    x, y, width, height = place
+def _tile(plan, place, tile, is_final):
+    (x, y, width, height), values = place, tile.result(is_final)
     passes = {name: np.ascontiguousarray(values[name].reshape(-1, height, width).transpose(1, 2, 0)) for name in plan.settings.passes}
     return Tile(x, y, width, height, passes, is_final)
 

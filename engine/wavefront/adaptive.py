@@ -135,9 +135,9 @@ class AdaptiveTile:
             self._films.append(film)
             self._divided.append(divided)
 
-    def result(self):
+    def result(self, is_whole=True):
         """The levels that are complete, or the pixels so far."""
-        levels = [film.pixels() for film in self._films]
+        levels = [film.pixels(is_whole) for film in self._films]
         x, y, width, height = self._roots
         own_x, own_y, own_width, own_height = self._place
         result = {}

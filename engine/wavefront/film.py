@@ -23,6 +23,7 @@ class Film:
         self._parts = tuple(p for p in passes if p.records in ("light", "first hit and light"))
         self.sums = {p.key: Ranks(pixels) if p.reduction == "ranks" else np.zeros((_rows(p), pixels)) for p in passes}
         self.samples = np.zeros(pixels, np.int64)
+        self._weight = np.zeros(pixels)
         self.bad_samples = 0
 
     def open(self, samples, window, weights=()):
@@ -90,15 +91,22 @@ class Film:
             for i in range(self._count):
                 total += samples[:, i] * self._weights[i] if is_weighted else samples[:, i]
         self.samples[self._window] += self._count
+        self._weight[self._window] += sum(self._weights) if len(self._weights) else self._count
 
-    def pixels(self):
-        """{pass: (C, P) float64} of the samples gathered so far; 0, alpha too, for pixels without any."""
+    def pixels(self, is_whole=True):
+        """{pass: (C, P) float64} of the samples gathered so far; 0, alpha too, for pixels without any.
+
+        Means are by the number of samples, or where there will be more, `is_whole` is false, by what they weigh so far. Only
+        samples from a later one on may begin with those that count negatively, and weigh less than is good to divide by.
+        """
         count = np.maximum(self.samples, 1)
+        if not is_whole:
+            count = np.where(self._weight > 0.5 * count, self._weight, count)
         return {p.key: _reduced(p, self.sums[p.key], count) for p in self.passes}
 
-    def result(self):
+    def result(self, is_whole=True):
         """`pixels` as they are shown, see `shown`."""
-        return shown(self.passes, self.pixels())
+        return shown(self.passes, self.pixels(is_whole))
 
 
 def _rows(p):

@@ -34,8 +34,8 @@ class EvenTile:
     """All pixels of a tile get the same number of samples.
 
     Tiles have longest_side(settings) [px], which they may not exceed, and most_rounds(settings). `rounds()` yields
-    (film, what to sample into it) one after the other, and goes on when that has been done; `result()` at any time
-    is {pass: (C, P) float32} of what has been sampled so far.
+    (film, what to sample into it) one after the other, and goes on when that has been done; `result(is_whole)` at any
+    time is {pass: (C, P) float32} of what has been sampled so far, see `Film.pixels`.
     """
 
     @staticmethod
@@ -56,9 +56,9 @@ class EvenTile:
         """All pixels in one round."""
         yield self._film, self._pixels
 
-    def result(self):
+    def result(self, is_whole=True):
         """What the film says."""
-        return self._film.result()
+        return self._film.result(is_whole)
 
 
 def rectangle(x, y, width, height):

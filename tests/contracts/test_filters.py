@@ -4,12 +4,13 @@ import numpy as np
 import pytest
 from scipy import integrate
 
-from glanz.engine import OrthographicCamera, render_image
+from glanz.engine import OrthographicCamera, prepare, render_image, render_plan
 from glanz.engine.filters.blackman_harris import BlackmanHarris
 from glanz.engine.filters.mitchell import Mitchell
 from glanz.engine.interfaces import Filter
 from glanz.engine.registry import FILTERS
 from glanz.engine.wavefront import signed_filter
+from glanz.engine.wavefront.film import Film, shown
 from glanz.tests import helpers as h
 
 
@@ -200,6 +201,35 @@ def test_signed_weights_leave_a_constant_picture_and_alpha_alone(samples):
     image = render_image(h.scene(world=0.75), settings).passes["Combined"]
     assert np.abs(image[..., :3] - 0.75).max() <= 3e-7
     assert np.abs(image[..., 3] - 1).max() <= 3e-7
+
+
+def unfinished(**settings):
+    """The pictures (pixels, 4) after 1, 2, 4, ... of 64 samples of an even world of 0.75."""
+    asked = h.settings(pixel_filter="mitchell", filter_width=4.0, samples=64, width=4, height=4, **settings)
+    plan, _ = prepare(h.scene(world=0.75), asked)
+    begin, end = asked.rendered_samples
+    tiles = [tile for progress in render_plan(plan, range(begin + 1, end)) for tile in progress.tiles]
+    assert [tile.is_final for tile in tiles] == [False] * (end - begin - 1) + [True]
+    return [tile.passes["Combined"].reshape(-1, 4) for tile in tiles]
+
+
+def test_unfinished_pictures_are_as_bright_as_finished_ones():
+    for picture in unfinished():
+        np.testing.assert_allclose(picture, np.tile((0.75, 0.75, 0.75, 1), (16, 1)), atol=3e-7)
+
+
+def test_of_samples_that_begin_with_a_negative_one_nothing_is_divided_by_next_to_nothing():
+    first = int(np.argmax(signed_filter.negative_samples(Mitchell, 64)))
+    weights = signed_filter.sample_weights(Mitchell, 64)[first : first + 4]
+    assert abs(weights[:2].sum()) < 0.2
+    pictures = unfinished(sample_range=(first, first + 4))
+    for picture, mean in zip(pictures[:2], np.cumsum(weights)[:2] / (1, 2), strict=True):
+        np.testing.assert_allclose(picture[:, 3], mean, atol=3e-7)
+
+
+def test_unfinished_pictures_that_count_samples_would_be_seen_here(monkeypatch):
+    monkeypatch.setattr(Film, "result", lambda film, is_whole: shown(film.passes, film.pixels()))
+    assert max(picture[:, 3].max() for picture in unfinished()) > 1.05
 
 
 def test_an_edge_rings_as_the_filter_says():
