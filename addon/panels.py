@@ -78,6 +78,12 @@ class GLANZ_RENDER_PT_sampling(GlanzPanel, bpy.types.Panel):
         column = self.column()
         column.prop(settings, "integrator")
         column.prop(settings, "samples")
+        rounds = column.column()
+        # Where pixels are divided the end is known.
+        rounds.active = settings.adaptive_threshold == 0
+        rounds.prop(settings, "error_target")
+        rounds.prop(settings, "time_limit")
+        column.prop(settings, "replicates")
         column.prop(settings, "sampler")
         column.prop(settings, "seed")
         column.prop(settings, "adaptive_threshold")

@@ -51,6 +51,8 @@ TABLE = {
     "Denoising Albedo": BlenderPass("COLOR", "cycles.denoising_store_passes"),
     "Denoising Normal": BlenderPass("VECTOR", "cycles.denoising_store_passes"),
     "Denoising Depth": BlenderPass("VALUE", "cycles.denoising_store_passes"),
+    "Standard Error": BlenderPass("COLOR", "glanz.use_pass_standard_error"),
+    "Confidence": BlenderPass("COLOR", "glanz.use_pass_confidence"),
     "Sample Count": BlenderPass("VALUE", "glanz.use_pass_sample_count"),
 }
 

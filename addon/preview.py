@@ -5,7 +5,7 @@ from contextlib import closing
 from ..engine import render
 from .export import export_scene
 from .results import make_room, write_tile
-from .settings import doubling, settings_of
+from .settings import ALL_SAMPLES, doubling, settings_of
 
 SAMPLES = 16
 MAX_DEPTH = 6
@@ -14,7 +14,8 @@ MAX_DEPTH = 6
 
 def preview_settings(scene, view_layer, width, height):
     """`Settings` that are quick: Blender's little scene knows nothing of those of the user's."""
-    return settings_of(scene, view_layer, width=width, height=height, samples=SAMPLES, max_depth=MAX_DEPTH, passes=("Combined",))
+    quick = {"samples": SAMPLES, "max_depth": MAX_DEPTH, **ALL_SAMPLES}
+    return settings_of(scene, view_layer, width=width, height=height, passes=("Combined",), **quick)
 
 
 def render_preview(engine, depsgraph, check):

@@ -147,6 +147,45 @@ class GlanzSceneSettings(bpy.types.PropertyGroup):
         ),
         default=True,
     )
+    error_target: FloatProperty(
+        name="Error Target",
+        description=(
+            "Rendering ends where the standard error of the picture, relative to its mean brightness, is this small, with Samples at the "
+            "latest: 0.01 is 1 %. 0 is none. Half of it takes four times the time. The samples are in independent sets then, "
+            "which costs about a fifth more time for the same noise"
+        ),
+        default=0.0,
+        min=0.0,
+        soft_max=1.0,
+        max=1e6,
+        precision=4,
+        step=1,
+    )
+    time_limit: FloatProperty(
+        name="Time Limit",
+        description=(
+            "Rendering ends after this time, in seconds from when the scene is ready, though not before every pixel has a sample. "
+            "0 is none. The picture has the noise of as many samples as there was time for"
+        ),
+        default=0.0,
+        min=0.0,
+        soft_max=3600.0,
+        max=1e9,
+        subtype="TIME_ABSOLUTE",
+        unit="TIME_ABSOLUTE",
+    )
+    replicates: IntProperty(
+        name="Replicates",
+        description=(
+            "Sets that the samples of a pixel are divided into, each with random numbers of its own. What they differ by tells the error "
+            "of the picture, which files state. 1: none is known. 0: 8 where Error Target or a pass asks for it, else 1. "
+            "They do not complement each other: 2 cost a tenth more time for the same noise, 8 a third"
+        ),
+        default=0,
+        min=0,
+        soft_max=64,
+        max=2**12,
+    )
     adaptive_threshold: FloatProperty(
         name="Adaptive Threshold",
         description=(
@@ -218,6 +257,22 @@ class GlanzSceneSettings(bpy.types.PropertyGroup):
 class GlanzViewLayerSettings(bpy.types.PropertyGroup):
     """What Glanz is asked for by a view layer, beside what Blender asks."""
 
+    use_pass_standard_error: BoolProperty(
+        name="Standard Error",
+        description=(
+            "Deliver the standard deviation of each pixel about what infinitely many samples would give, in its radiance. "
+            "The samples are in 8 independent sets then, if Replicates says nothing else: a third more time for the same noise"
+        ),
+        default=False,
+    )
+    use_pass_confidence: BoolProperty(
+        name="Confidence",
+        description=(
+            "Deliver half the width of the interval around each pixel that holds the truth in 95 of 100 cases, in its radiance. "
+            "Costs what Standard Error costs; both together cost it once"
+        ),
+        default=False,
+    )
     use_pass_sample_count: BoolProperty(
         name="Sample Count",
         description="Deliver how many samples each pixel took; it differs between pixels with an adaptive threshold only",

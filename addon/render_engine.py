@@ -100,6 +100,7 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
             # Closing the generator joins its threads, so none is left when Blender goes on, whatever happens here.
             with closing(rendering((layer, view), scene, settings, ends)) as progress:
                 for step in progress:
+                    reached = step.reached
                     if step.warnings:
                         warnings.show(findings.take(step.warnings))
                         self._keep(depsgraph, requirements, findings)
@@ -108,13 +109,13 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
                         write_tile(self, tile, settings.region, layer, view)
                     outlines.show(step.in_work)
                     done = (number + step.done) / len(views)
-                    status.show(done, len(warnings), where)
+                    status.show(done, len(warnings), where, reached.error)
                     if self.is_cancelled():
                         break
             if self.is_cancelled():
                 break
         outlines.show(())
-        stamp(self, outcome(layer, settings.samples, done, time.monotonic() - begun, len(warnings)))
+        stamp(self, outcome(layer, reached, done, time.monotonic() - begun, len(warnings)))
         self._keep(depsgraph, requirements, findings)
         warnings.close()
 

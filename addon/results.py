@@ -88,9 +88,12 @@ class Outlines:
             self._engine.tile_highlight_set(x - self._left, self._bottom - y - height, width, height, True)
 
 
-def outcome(layer, samples, done, seconds, warnings):
-    """What saved files should say of each of their layers once it is rendered, {str: str}; below 100 % `done` it was cancelled."""
-    facts = {"samples": samples, "done": f"{int(100 * done)}%", "total_time": f"{seconds:.2f} s", "warnings": warnings}
+def outcome(layer, reached, done, seconds, warnings):
+    """What saved files should say of each of their layers once it is rendered, {str: str}; below 100 % `done` it was cancelled.
+
+    reached  the engine's `Reached` of its last picture
+    """
+    facts = {**reached.facts(), "done": f"{int(100 * done)}%", "total_time": f"{seconds:.2f} s", "warnings": warnings}
     return {f"glanz.{layer}.{name}": str(value) for name, value in facts.items()}
 
 

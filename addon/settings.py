@@ -21,12 +21,17 @@ _OWN = (
     "pixel_filter",
     "filter_width",
     "filter_textures",
+    "error_target",
+    "time_limit",
+    "replicates",
     "adaptive_threshold",
     "adaptive_levels",
     "tile_size",
     "motion_steps",
 )
 """Read from `scene.glanz`; the names are the same on both sides."""
+ALL_SAMPLES = {"replicates": 1, "error_target": 0.0, "time_limit": 0.0}
+"""Overrides for pictures that are looked at while they refine: nobody asks for their error, and nothing else ends them."""
 
 
 def settings_of(scene, view_layer, **overrides):

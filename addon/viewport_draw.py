@@ -13,7 +13,7 @@ from gpu_extras.presets import draw_texture_2d
 
 from .export import Kept, export_contents
 from .reports import explain
-from .settings import settings_of
+from .settings import ALL_SAMPLES, settings_of
 from .viewport import ENDLESS, Session
 from .viewport_camera import view_of
 
@@ -93,7 +93,7 @@ class Viewport:
         pixel = max(self._engine().get_preview_pixel_size(scene), 1)
         film = {"width": -(-width // pixel), "height": -(-height // pixel), "border": (), "tile_size": _TILE, "adaptive_threshold": 0.0}
         samples = scene.glanz.viewport_samples or ENDLESS
-        return settings_of(scene, depsgraph.view_layer, samples=samples, passes=("Combined",), **film)
+        return settings_of(scene, depsgraph.view_layer, samples=samples, passes=("Combined",), **ALL_SAMPLES, **film)
 
     def _show(self, rectangle, scene):
         picture = self._session.picture

@@ -19,6 +19,9 @@ OVERRIDES = (
     "branches",
     "min_contribution",
     "seed",
+    "replicates",
+    "error_target",
+    "time_limit",
     "threads",
     "adaptive_threshold",
     "adaptive_levels",
@@ -121,10 +124,21 @@ def _picture(shot, settings, terminal):
             terminal.stopper.check()
 
         image = render_image(shot.scene, settings, on_progress)
+    terminal.note(_reached(image.metadata))
     if not image.passes:
         raise SceneError("no picture came out: the settings name no passes")
     more = {"glanz.version": __version__} | ({} if shot.frame is None else {"glanz.frame": str(shot.frame)})
     return dataclasses.replace(image, metadata=image.metadata | more)
+
+
+def _reached(facts):
+    """What a picture says of its end, as a line."""
+    samples, error, cause = (facts[f"glanz.reached.{name}"] for name in ("samples", "error", "ended_by"))
+    measured = "" if error == "not measured" else f", error {100 * float(error):.2g} %"
+    return f"{samples} samples{measured}; ended by the {_CAUSES[cause]}"
+
+
+_CAUSES = {"samples": "number of samples", "error": "error target", "time": "time limit"}
 
 
 def _write(image, path, source):

@@ -8,6 +8,7 @@ import numpy as np
 from . import needs
 from .arrays import Columns, columns
 from .constants import EPS32
+from .ending import MEASURED_BY
 from .interfaces import is_straight
 from .maths.vectors import length
 from .registry import FILTERS, INTEGRATORS, PASSES, SAMPLERS
@@ -106,7 +107,7 @@ class Plan:
     on_leaving         stages (plan, rays, surface, reflection, scattered) that renew what scattered rays carry
     first_hits         the passes that record where camera rays hit
     tile               how the pixels of a tile are sampled, see `wavefront.tiles`
-    passes             those that are gathered: what the settings ask for, and what that is divided by
+    passes             those that are gathered: what the settings ask for, what that is divided by, what tells the error
     last_depth         the depth of the last rays that are traced
     The other functions are choices that cost nothing where there is nothing to choose.
     """
@@ -182,7 +183,7 @@ class Plan:
         are_passed = passes and not integrator.tints_glass
         bsdfs = tuple(bsdf for bsdf in requirements.plugins("bsdf") if not (are_passed and is_straight(bsdf)))
         # Those that others are divided by, too.
-        wanted = [PASSES[key] for key in settings.passes]
+        wanted = [PASSES[key] for key in (*settings.passes, *(MEASURED_BY if settings.is_measured else ()))]
         gathered = tuple(dict.fromkeys((*wanted, *(PASSES[p.divided_by] for p in wanted if p.divided_by))))
         asked = [key for p in gathered for key in getattr(p, "attributes", ())]
         world = world or compile_world(
@@ -248,7 +249,7 @@ class Plan:
             requirements=requirements,
             world=world,
             place=place,
-            numbers=Numbers(SAMPLERS[settings.sampler], settings.samples),
+            numbers=Numbers(SAMPLERS[settings.sampler], settings.replicate),
             filter=FILTERS[settings.pixel_filter],
             camera=type(camera),
             camera_k=columns([row]),

@@ -1,16 +1,17 @@
 """From a scene to pictures: tiles as they finish, from threads over the frame."""
 
+import math
 import os
 import threading
 import time
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from itertools import pairwise
 
 import numpy as np
 
 from .constants import VERSION
+from .ending import Ending, Reached, error_sums, relative_error
 from .errors import SceneWarning
 from .plan import Plan
 from .registry import PASSES
@@ -48,12 +49,14 @@ class Progress:
     """What has happened since the last one: the share `done` in [0, 1], tiles to show, each `SceneWarning` that came up.
 
     in_work  (x, y, width, height) [px] of the tiles that threads are at just now
+    reached  how far the whole frame has come, a `Reached`; the last one says what has ended it
     """
 
     done: float
     tiles: tuple = ()
     warnings: tuple = ()
     in_work: tuple = ()
+    reached: Reached = Reached(0)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -106,21 +109,25 @@ def render_plan(plan, ends=(), cancelled=None):
     """
     settings = plan.settings
     places = _tiles(settings, plan.tile.longest_side(settings))
-    work = _Work(places, cancelled)
-    begin, end = settings.rendered_samples
-    edges = (begin, *(e for e in ends if begin < e < end and plan.tile.most_rounds(settings) == 1), end)
+    ending = Ending(settings, ends if plan.tile.most_rounds(settings) == 1 else ())
+    work = _Work(places, ending, cancelled)
+    reached = Reached(settings.rendered_samples[0])
     workers = min(settings.threads or os.cpu_count() or 1, len(places))
     with ThreadPoolExecutor(workers, thread_name_prefix="glanz") as pool:
         try:
-            for samples in pairwise(edges):
-                if work.is_stopped():
-                    break
+            while not (reached.ended_by or work.is_stopped()):
+                samples = reached.samples, ending.following(reached.samples, reached.error)
                 pending = {pool.submit(_work_on, plan, place, work, samples) for place in places}
                 while pending:
                     finished, pending = wait(pending, POLL_SECONDS, FIRST_COMPLETED)
                     # First the unfinished: a tile among them may be finished by now.
                     tiles = (*work.take_unfinished(), *(future.result() for future in finished))
-                    yield Progress(work.done, tuple(tile for tile in tiles if tile), work.take_warnings(), work.places)
+                    done = max(work.done, ending.share(reached.samples, reached.error))
+                    yield Progress(done, tuple(tile for tile in tiles if tile), work.take_warnings(), work.places, reached)
+                reached = work.reached(samples)
+            # What ended early has not known that it would.
+            tiles = tuple(_tile(plan, place, tile.result(not work.is_cut), is_final=True) for place, tile in work.tiles.items())
+            yield Progress(1.0 if reached.ended_by else work.done, tiles if reached.ended_by else (), reached=reached)
         finally:
             work.stop()
             pool.shutdown(wait=True, cancel_futures=True)
@@ -129,9 +136,10 @@ def render_plan(plan, ends=(), cancelled=None):
 def render_image(scene, settings, on_progress=None):
     """The whole `Image`; `on_progress`, if given, is called with each `Progress`."""
     x0, y0, x1, y1 = settings.region
-    passes, warnings = {}, []
+    passes, warnings, reached = {}, [], Reached(0)
     for progress in render(scene, settings):
         warnings += progress.warnings
+        reached = progress.reached
         for tile in progress.tiles:
             for name, values in tile.passes.items():
                 if name not in passes:
@@ -139,7 +147,8 @@ def render_image(scene, settings, on_progress=None):
                 passes[name][tile.y - y0 : tile.y - y0 + tile.height, tile.x - x0 : tile.x - x0 + tile.width] = values
         if on_progress:
             on_progress(progress)
-    return Image(x1 - x0, y1 - y0, passes, metadata(scene, settings), tuple(warnings))
+    outcome = {f"glanz.reached.{name}": value for name, value in reached.facts().items()}
+    return Image(x1 - x0, y1 - y0, passes, metadata(scene, settings) | outcome, tuple(warnings))
 
 
 def metadata(scene, settings, layer="", requirements=None):
@@ -159,6 +168,9 @@ def metadata(scene, settings, layer="", requirements=None):
         "glanz.sampler": settings.sampler,
         "glanz.samples": str(settings.samples),
         "glanz.sample_range": "{},{}".format(*settings.rendered_samples),
+        "glanz.replicates": str(-(-settings.samples // settings.replicate)),
+        "glanz.error_target": f"{settings.error_target:g}",
+        "glanz.time_limit": f"{settings.time_limit:g} s",
         "glanz.max_depth": str(settings.max_depth),
         "glanz.seed": str(settings.seed),
         "glanz.adaptive_threshold": f"{settings.adaptive_threshold:g}",
@@ -170,9 +182,17 @@ def metadata(scene, settings, layer="", requirements=None):
 
 
 class _Work:
-    """What the threads of one render share; `tiles` are those that are begun, by their place."""
+    """What the threads of one render share.
 
-    def __init__(self, tiles, cancelled=None):
+    tiles   those that are begun, by their place
+    sums    what the errors of all are, by their place: `error_sums`, or None
+    is_cut  whether the time was over before a round was
+    """
+
+    def __init__(self, tiles, ending, cancelled=None):
+        self.ending = ending
+        self.sums = dict.fromkeys(tiles)
+        self.is_cut = False
         self._stops = [threading.Event(), *((cancelled,) if cancelled else ())]
         self.tiles = {}
         self._lock = threading.Lock()
@@ -205,6 +225,15 @@ class _Work:
     def is_stopped(self):
         """Whether the threads are to give up."""
         return any(event.is_set() for event in self._stops)
+
+    def reached(self, samples):
+        """How far the frame is after a round from the first of `samples` to the last; not all pixels got there if it is late."""
+        is_known = all(sums is not None for sums in self.sums.values())
+        # In the order of places, whichever thread was first.
+        error = relative_error(sum(self.sums.values())) if is_known else math.inf
+        if self.is_cut:
+            return Reached(samples[0], error, "time")
+        return Reached(samples[1], error, "" if self.is_stopped() else self.ending.ended_by(samples[1], error))
 
     def finish(self, tile, share):
         """The `share` of the work on a tile that is done, in [0, 1]."""
@@ -257,12 +286,16 @@ def _render_tile(plan, place, work, samples):
         return None
     tile = work.tiles.pop(place, None) or plan.tile(plan, place)
     begin, end = plan.settings.rendered_samples
-    weights = sample_weights(plan.filter, plan.settings.samples)
+    weights = sample_weights(plan.filter, plan.settings.samples, plan.settings.replicate)
     shown = time.monotonic()
     for number, (film, pixels) in enumerate(tile.rounds()):
         paths = pixels.px.size * (samples[0] - begin)
         for window, first, count in _batches(pixels.px.size, *samples):
-            film.open(count, window, weights[first : first + count])
+            # Every pixel has a sample before the time is over.
+            if samples[0] > begin and work.ending.is_late():
+                work.is_cut = True
+                break
+            film.open(count, window, weights[first : first + count], first)
             rays = camera_rays(plan, pixels.part(window), first, count)
             if not trace(plan, rays, film, work.is_stopped):
                 return None
@@ -270,19 +303,22 @@ def _render_tile(plan, place, work, samples):
             paths += rays.slot.size
             work.finish(place, (number + paths / (pixels.px.size * (end - begin))) / tile.most_rounds(plan.settings))
             if time.monotonic() - shown > SHOW_SECONDS:
-                work.show(_tile(plan, place, tile, is_final=False))
+                work.show(_tile(plan, place, tile.result(is_whole=False), is_final=False))
                 shown = time.monotonic()
         work.count_bad(film.bad_samples)
         film.bad_samples = 0
-    if samples[1] < end:
+    is_final = samples[1] == end and not work.is_cut
+    values = tile.result(is_whole=is_final)
+    work.sums[place] = error_sums(values) if plan.settings.is_measured else None
+    if is_final:
+        work.finish(place, 1)
+    else:
         work.tiles[place] = tile
-        return _tile(plan, place, tile, is_final=False)
-    work.finish(place, 1)
-    return _tile(plan, place, tile, is_final=True)
+    return _tile(plan, place, values, is_final)
 
 
-def _tile(plan, place, tile, is_final):
-    (x, y, width, height), values = place, tile.result(is_final)
+def _tile(plan, place, values, is_final):
+    x, y, width, height = place
     passes = {name: np.ascontiguousarray(values[name].reshape(-1, height, width).transpose(1, 2, 0)) for name in plan.settings.passes}
     return Tile(x, y, width, height, passes, is_final)
 

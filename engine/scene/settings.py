@@ -5,6 +5,12 @@ from dataclasses import dataclass
 
 from ..errors import SceneError
 
+REPLICATES = 8
+"""Where the error is asked for and nothing else: its own error is then a quarter in a pixel, and far less in a picture."""
+TOGETHER = 16
+"""Samples of a replicate at most, where a picture may end after any of them."""
+OF_ERROR = ("Standard Error", "Confidence")
+"""Passes that ask for the error."""
 
 @dataclass(frozen=True, kw_only=True)
 class Settings:
@@ -16,6 +22,11 @@ class Settings:
     samples        paths per pixel
     sample_range   (first, end) of the samples that are rendered, the end excluded; empty: all. The mean of parts, by their samples,
                    is the whole
+    replicates     sets that the samples of a pixel are divided into, each with random numbers of its own: what their means differ by
+                   tells the error, see `wavefront.replicates`, and noise grows as they do not complement each other. 1: no error is
+                   known; 0: REPLICATES of them where passes or an error target ask for the error, else 1
+    error_target   the standard error of the picture, relative to its mean, at which rendering ends before all samples are in; 0: none
+    time_limit     the time [s] after which it ends, though not before every pixel has a sample; 0: none
     max_depth      bounces: 0 is direct light only (Cycles' `max_bounces`, the lecture's recursion depth)
     max_transparent  transparent surfaces that light passes between two bounces; the next one absorbs what it should let pass
     branches       rays that distributed ray tracing splits into at the first hit; a quarter of them at each further one
@@ -41,6 +52,9 @@ class Settings:
     integrator: str = "path"
     samples: int = 64
     sample_range: tuple = ()
+    replicates: int = 0
+    error_target: float = 0.0
+    time_limit: float = 0.0
     max_depth: int = 8
     max_transparent: int = 64
     branches: int = 16
@@ -64,6 +78,7 @@ class Settings:
             ("width", 1, 65536),
             ("height", 1, 65536),
             ("samples", 1, 2**24),
+            ("replicates", 0, 2**12),
             ("max_depth", 0, 2**16),
             ("max_transparent", 0, 1024),
             ("branches", 1, 2**12),
@@ -84,8 +99,14 @@ class Settings:
             raise SceneError(f"setting min_contribution is {self.min_contribution!r}, allowed: 0 to 1")
         if not (isinstance(self.filter_width, (int, float)) and math.isfinite(self.filter_width) and 0.0 < self.filter_width <= 10.0):
             raise SceneError(f"setting filter_width is {self.filter_width!r} px, allowed: above 0 up to 10")
+        if not (isinstance(self.error_target, (int, float)) and 0.0 <= self.error_target < math.inf):
+            raise SceneError(f"setting error_target is {self.error_target!r}, allowed: from 0, which is none")
+        if not (isinstance(self.time_limit, (int, float)) and 0.0 <= self.time_limit < math.inf):
+            raise SceneError(f"setting time_limit is {self.time_limit!r} s, allowed: from 0, which is none")
         if not (isinstance(self.adaptive_threshold, (int, float)) and 0.0 <= self.adaptive_threshold <= 1.0):
             raise SceneError(f"setting adaptive_threshold is {self.adaptive_threshold!r}, allowed: from 0 to 1")
+        if self.adaptive_threshold and (self.error_target or self.time_limit):
+            raise SceneError("error_target and time_limit need an adaptive_threshold of 0: divided pixels have an end of their own")
         object.__setattr__(self, "passes", tuple(self.passes))
         object.__setattr__(self, "border", tuple(self.border))
         object.__setattr__(self, "sample_range", tuple(self.sample_range))
@@ -116,6 +137,20 @@ class Settings:
     def rendered_samples(self):
         """(first, end) of the samples that are rendered: a part of them, or all."""
         return self.sample_range or (0, self.samples)
+
+    @property
+    def is_measured(self):
+        """Whether the error of the picture becomes known."""
+        return self.replicate < self.samples
+
+    @property
+    def replicate(self):
+        """Samples of a replicate: they are spread over each dimension together. The last replicate may have less."""
+        if self.replicates:
+            return -(-self.samples // self.replicates)
+        if self.error_target:
+            return min(-(-self.samples // REPLICATES), TOGETHER)
+        return -(-self.samples // REPLICATES) if any(key in OF_ERROR for key in self.passes) else self.samples
 
     @property
     def region(self):

@@ -61,12 +61,12 @@ class Cells:
         """The pixels that they are in, (P,)."""
         return self.y >> self.level
 
-    def keys(self, numbers, settings):
+    def keys(self, numbers, width, seed):
         """Those of the pixels, hashed with the number of the cell in its pixel: 1, level by level and row by row."""
         x, y = self._in_pixel()
         number = (1 << 2 * self.level) + (y << self.level) + x
         # Hashed once more, or the cell a of pixel b would be the cell b of pixel a.
-        return mix(mix(numbers.keys(self.px, self.py, settings)) ^ mix(number.astype(np.uint32)))
+        return mix(mix(numbers.keys(self.px, self.py, width, seed)) ^ mix(number.astype(np.uint32)))
 
     def spread(self, u2):
         """Numbers over the cells' own squares of [0, 1)^2."""
@@ -106,6 +106,7 @@ class AdaptiveTile:
         settings = plan.settings
         self._passes = plan.passes
         self._sampled = plan.passes if PASSES[_COLOURS] in plan.passes else (*plan.passes, PASSES[_COLOURS])
+        self._replicate = settings.replicate
         self._threshold = settings.adaptive_threshold or math.inf
         self._levels = settings.adaptive_levels
         self._frame = settings.width, settings.height
@@ -115,7 +116,7 @@ class AdaptiveTile:
         self._roots = self._grown(place, min(self._levels, 2))
         x, y = rectangle(*self._roots)
         self._pixels = Pixels(x, y)
-        self._films = [Film(x.size, self._sampled)]
+        self._films = [self._film(x.size)]
         self._divided = []
         self._tree = _Tree(self._roots)
 
@@ -130,7 +131,7 @@ class AdaptiveTile:
                 return
             self._tree.divide(divided)
             x, y = (np.stack([2 * z.take(divided) + q for q in side], axis=1).ravel() for z, side in zip((x, y), zip(*_QUARTERS)))
-            film = Film(x.size, self._sampled)
+            film = self._film(x.size)
             yield film, Cells(level + 1, x, y)
             self._films.append(film)
             self._divided.append(divided)
@@ -146,6 +147,9 @@ class AdaptiveTile:
             values = values.reshape(-1, height, width)[:, own_y - y :, own_x - x :][:, :own_height, :own_width]
             result[p.key] = values.reshape(len(values), -1)
         return shown(self._passes, result)
+
+    def _film(self, cells):
+        return Film(cells, self._sampled, self._replicate)
 
     def _to_divide(self, level, x, y):
         """Which of the cells x, y (P,) of a level differ from those around them, if they matter for the tile."""
@@ -187,7 +191,12 @@ def _gathered(reduction, levels, divided):
     if reduction in ("first", "ranks"):
         return levels[0]
     for larger, parts, lanes in zip(levels[-2::-1], levels[:0:-1], divided[::-1]):
-        total = parts[:, 0::4] + parts[:, 1::4] + parts[:, 2::4] + parts[:, 3::4]
+        quarters = [parts[:, quarter::4] for quarter in range(4)]
+        if reduction == "replicates":
+            # Of their mean, as they are independent of each other.
+            larger[:, lanes] = np.sqrt(sum(q**2 for q in quarters)) / 4
+            continue
+        total = sum(quarters)
         larger[:, lanes] = total / 4 if reduction == "mean" else larger[:, lanes] + total
     return levels[0]
 

@@ -5,6 +5,7 @@ import numpy as np
 from ..maths.warps import square_to_disk, square_to_polygon
 from .numbers import Dimension
 from .records import Rays
+from .replicates import seed_of
 from .signed_filter import negative_samples, offsets
 
 
@@ -15,7 +16,10 @@ def camera_rays(plan, pixels, first, count):
     """
     settings = plan.settings
     px, py = pixels.px, pixels.py
-    key = pixels.keys(plan.numbers, settings)
+    numbers = np.arange(first, first + count)
+    replicate, sample = np.divmod(numbers, settings.replicate)
+    seeds = [seed_of(settings.seed, r) for r in range(replicate[0], replicate[-1] + 1)]
+    keys = np.stack([pixels.keys(plan.numbers, settings.width, seed) for seed in seeds])
     n = count * px.size
     rays = Rays(
         o=np.zeros((3, n), np.float32),
@@ -23,13 +27,13 @@ def camera_rays(plan, pixels, first, count):
         beta=np.ones((3, n), np.float32),
         pdf=np.zeros(0, np.float32),
         slot=np.arange(n),
-        key=np.tile(key, count),
-        sample=np.repeat(np.arange(first, first + count, dtype=np.uint32), px.size),
+        key=keys.take(replicate - replicate[0], axis=0).ravel(),
+        sample=np.repeat(sample.astype(np.uint32), px.size),
         depth=0,
     )
     for name, start in plan.carry:
         setattr(rays.carried, name, start(plan, rays))
-    negative = negative_samples(plan.filter, settings.samples)[first : first + count]
+    negative = negative_samples(plan.filter, settings.samples, settings.replicate)[first : first + count]
     dx, dy = offsets(plan.filter, pixels.spread(plan.numbers.two(rays, Dimension.FILTER)), settings.filter_width, negative)
     # Measured from the middle of the frame, where half pixels are exact.
     x = np.tile((px + (0.5 - 0.5 * settings.width)).astype(np.float32), count) + dx

@@ -3,6 +3,7 @@
 import numpy as np
 
 from .ranks import Ranks
+from .replicates import Replicates
 
 BACKGROUND = -1
 """The place in `world.lights` of a world that is the same everywhere: it is not among them."""
@@ -18,20 +19,22 @@ class Film:
     recorded  {pass: (C, slots) float32} of those that record something along the way, see `interfaces.Pass`
     """
 
-    def __init__(self, pixels, passes):
+    def __init__(self, pixels, passes, replicate=1):
+        """For `pixels` (P,) whose samples are in replicates of so many."""
         self.passes = passes
         self._parts = tuple(p for p in passes if p.records in ("light", "first hit and light"))
-        self.sums = {p.key: Ranks(pixels) if p.reduction == "ranks" else np.zeros((_rows(p), pixels)) for p in passes}
+        self.sums = {p.key: _gathering(p, pixels, replicate) for p in passes}
         self.samples = np.zeros(pixels, np.int64)
         self._weight = np.zeros(pixels)
         self.bad_samples = 0
 
-    def open(self, samples, window, weights=()):
-        """Start `samples` more samples of the pixels `window`, a slice; further batches open the other pixels.
+    def open(self, samples, window, weights=(), first=0):
+        """Start `samples` more samples, from number `first` on, of the pixels `window`, a slice; further batches open the other pixels.
 
         weights (samples,) is what each counts in the mean, 1 on average over all samples of a pixel; empty: all count 1.
         """
         self._weights = weights
+        self._first = first
         self._window = window
         self._count = samples
         slots = samples * (window.stop - window.start)
@@ -83,6 +86,9 @@ class Film:
                     self._window.start, number, weight * np.reshape(self._weights, (-1, 1)) if len(self._weights) else weight
                 )
                 continue
+            if p.reduction == "replicates":
+                self.sums[p.key].add(self._window, self._first, samples * self._weights[:, None] if len(self._weights) else samples)
+                continue
             total = self.sums[p.key][:, self._window]
             if p.reduction == "first":
                 total += samples[:, 0] if is_first else 0
@@ -109,6 +115,13 @@ class Film:
         return shown(self.passes, self.pixels(is_whole))
 
 
+def _gathering(p, pixels, replicate):
+    """What gathers a pass."""
+    if p.reduction == "ranks":
+        return Ranks(pixels)
+    return Replicates(_rows(p), pixels, replicate) if p.reduction == "replicates" else np.zeros((_rows(p), pixels))
+
+
 def _rows(p):
     """How many numbers a pass writes down of each path."""
     return getattr(p, "rows", len(p.channels))
@@ -119,6 +132,8 @@ def _reduced(p, total, count):
         pairs = total.pairs(p.level)
         pairs[1::2] /= count
         return pairs
+    if p.reduction == "replicates":
+        return p.of(total)
     return total / (count if p.reduction == "mean" else 1)
 
 

@@ -29,7 +29,7 @@ _PER_BOUNCE = 8
 
 @dataclass(frozen=True, slots=True)
 class Numbers:
-    """The random numbers of a render: a sampler and how many samples of a pixel it is to spread over each dimension.
+    """The random numbers of a render: a sampler and how many samples of a pixel it is to spread over each dimension together.
 
     Where paths have split, it spreads all their branches.
     """
@@ -37,9 +37,9 @@ class Numbers:
     sampler: type
     samples: int
 
-    def keys(self, px, py, settings):
+    def keys(self, px, py, width, seed):
         """What random numbers know a pixel px, py (P,) of the full frame by, uint32; a sampler may have keys of its own."""
-        return getattr(self.sampler, "pixel_key", hashed_pixel)(px, py, settings.width, settings.seed)
+        return getattr(self.sampler, "pixel_key", hashed_pixel)(px, py, width, seed)
 
     def one(self, rays, dimension):
         """u1 (N,) for each ray at its depth."""

@@ -2,32 +2,44 @@
 
 Importance sampling by |f| gives weights of both signs (Ernst, Stamminger and Greiner 2006, "Filter Importance Sampling"). Were
 the sign a matter of chance, the weights of a pixel would not add up to 1 and even a white wall would be noisy.
-So samples are dealt out: as many to the lobes as is next to their share, spread evenly over the sample numbers, and
-the weights of all samples are 1 on average, exactly. Below eight samples there is none to spare for the lobes of
+So the samples of each replicate are dealt out: as many to the lobes as is next to their share, spread evenly over the sample
+numbers, and the weights of all of them are 1 on average, exactly. Below eight samples there is none to spare for the lobes of
 Mitchell's filter; they are left out then.
 """
 
 import numpy as np
 
 
-def negative_samples(pixel_filter, samples):
-    """Whether each of `samples` is drawn from the negative lobes, (samples,) bool; () for a filter without lobes."""
+def negative_samples(pixel_filter, samples, replicate):
+    """Whether each of `samples`, in replicates of so many, is drawn from the negative lobes, (samples,) bool; () for a filter without."""
     mass = getattr(pixel_filter, "negative_mass", 0.0)
     if not mass:
         return np.zeros(0, bool)
+    return np.concatenate([_dealt(mass, size) for size in _sizes(samples, replicate)])
+
+
+def sample_weights(pixel_filter, samples, replicate):
+    """What each of `samples`, in replicates of so many, counts in its pixel, (samples,) float64 with mean 1; () where all count 1."""
+    if not np.count_nonzero(negative_samples(pixel_filter, samples, replicate)):
+        return np.zeros(0)
+    return np.concatenate([_weights(pixel_filter.negative_mass, size) for size in _sizes(samples, replicate)])
+
+
+def _sizes(samples, replicate):
+    whole, rest = divmod(samples, replicate)
+    return [replicate] * whole + [rest] * bool(rest)
+
+
+def _dealt(mass, samples):
     count = round(samples * mass / (1 + 2 * mass))
     steps = np.arange(samples + 1) * count // samples
     return steps[1:] > steps[:-1]
 
 
-def sample_weights(pixel_filter, samples):
-    """What each of `samples` counts in its pixel, (samples,) float64 with mean 1; () where all count 1."""
-    negative = negative_samples(pixel_filter, samples)
+def _weights(mass, samples):
+    negative = _dealt(mass, samples)
     count = np.count_nonzero(negative)
-    if not count:
-        return np.zeros(0)
-    mass = pixel_filter.negative_mass
-    return np.where(negative, -mass * samples / count, (1 + mass) * samples / (samples - count))
+    return np.where(negative, -mass * samples / count, (1 + mass) * samples / (samples - count)) if count else np.ones(samples)
 
 
 def offsets(pixel_filter, u2, width, negative):

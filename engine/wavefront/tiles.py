@@ -18,9 +18,9 @@ class Pixels:
         """Those of the slice `window`."""
         return Pixels(self.px[window], self.py[window])
 
-    def keys(self, numbers, settings):
-        """What the random numbers know each by, (P,) uint32."""
-        return numbers.keys(self.px, self.py, settings)
+    def keys(self, numbers, width, seed):
+        """What the random numbers of a `seed` know each by, (P,) uint32, in a frame `width` [px] wide."""
+        return numbers.keys(self.px, self.py, width, seed)
 
     def spread(self, u2):
         """Numbers u2 (2, S * P) in [0, 1) over the filter of a pixel, as numbers over what is to be sampled of it."""
@@ -50,7 +50,7 @@ class EvenTile:
 
     def __init__(self, plan, place):
         self._pixels = Pixels(*rectangle(*place))
-        self._film = Film(self._pixels.px.size, plan.passes)
+        self._film = Film(self._pixels.px.size, plan.passes, plan.settings.replicate)
 
     def rounds(self):
         """All pixels in one round."""

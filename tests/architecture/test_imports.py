@@ -22,6 +22,7 @@ LAYERS = (
     ("world",),
     ("wavefront",),
     ("integrators", "passes"),
+    ("ending",),
     ("plan",),
     ("rendering",),
     ("io",),

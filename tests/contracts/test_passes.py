@@ -20,7 +20,7 @@ each = pytest.mark.parametrize("plugin", [PASSES[key] for key in ALL], ids=lambd
 
 
 def passes_of(scene, **changes):
-    return render_image(scene, h.settings(passes=ALL, **changes)).passes
+    return render_image(scene, h.settings(passes=ALL, replicates=2, **changes)).passes
 
 
 @each
@@ -28,7 +28,7 @@ def test_a_pass_offers_the_interface(plugin):
     assert isinstance(plugin, Pass)
     assert PASSES[plugin.key] == plugin
     assert plugin.channels in ("RGBA", "RGB", "X", "Z", "XYZ", "UVA", "XYZW", "rgba")
-    assert plugin.reduction in ("mean", "first", "sum", "ranks")
+    assert plugin.reduction in ("mean", "first", "sum", "ranks", "replicates")
     assert plugin.records in ("", "first hit", "light", "first hit and light")
     assert not plugin.records or isinstance(plugin.background, float)
     assert not plugin.divided_by or plugin.divided_by in PASSES
@@ -38,7 +38,7 @@ def test_a_pass_offers_the_interface(plugin):
 @each
 def test_a_pass_renders_alone_as_beside_all_others(plugin):
     """Bit for bit, with its channels, in float32, finite."""
-    alone = render_image(scenes.everything(), h.settings(passes=(plugin.key,))).passes
+    alone = render_image(scenes.everything(), h.settings(passes=(plugin.key,), replicates=2)).passes
     assert list(alone) == [plugin.key]
     values = alone[plugin.key]
     assert values.shape == (8, 8, len(plugin.channels))
@@ -52,6 +52,8 @@ def test_a_pass_of_an_empty_scene_is_its_background(plugin):
     values = passes_of(h.scene(world=0.25))[plugin.key]
     if plugin.reduction == "sum":
         assert (values == 4).all()
+    elif plugin.reduction == "replicates":
+        assert (values == 0).all()
     elif plugin.key in ("Environment", "Denoising Albedo"):
         assert (values == 0.25).all()
     elif plugin.records:

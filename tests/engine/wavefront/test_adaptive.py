@@ -60,9 +60,9 @@ def test_cells_divide_the_numbers_of_a_pixel(level):
 @pytest.mark.parametrize("sampler", SAMPLERS.values(), ids=lambda s: s.key)
 def test_every_cell_has_random_numbers_of_its_own(sampler):
     """No key twice among all cells of all levels of some pixels."""
-    settings, numbers = h.settings(width=3, height=2), Numbers(sampler, 4)
+    numbers = Numbers(sampler, 4)
     pixels = Pixels(*rectangle(0, 0, 3, 2))
-    keys = [pixels.keys(numbers, settings), *(every_cell(level).keys(numbers, settings) for level in range(1, 5))]
+    keys = [pixels.keys(numbers, 3, 0), *(every_cell(level).keys(numbers, 3, 0) for level in range(1, 5))]
     assert all(key.dtype == np.uint32 for key in keys)
     assert np.unique(np.concatenate(keys)).size == sum(6 * 4**level for level in range(5))
 
@@ -70,8 +70,8 @@ def test_every_cell_has_random_numbers_of_its_own(sampler):
 def test_a_part_of_cells_are_those_of_the_window():
     cells = every_cell(2)
     part = cells.part(slice(5, 17))
-    settings, numbers = h.settings(width=3, height=2), Numbers(SAMPLERS["stratified"], 4)
-    assert h.same_bits(part.keys(numbers, settings), cells.keys(numbers, settings)[5:17])
+    numbers = Numbers(SAMPLERS["stratified"], 4)
+    assert h.same_bits(part.keys(numbers, 3, 0), cells.keys(numbers, 3, 0)[5:17])
     u2 = np.random.default_rng(2).random((2, cells.x.size), np.float32)
     assert h.same_bits(part.spread(u2[:, 5:17]), cells.spread(u2)[:, 5:17])
 

@@ -1,0 +1,104 @@
+"""When a render ends: with all of its samples, at an error, or at a time, whichever comes first; and what it has reached then."""
+
+import math
+import time
+from dataclasses import dataclass
+
+import numpy as np
+
+MEASURED_BY = ("Combined", "Standard Error")
+"""The passes that the error of a picture is taken from."""
+
+
+@dataclass(frozen=True, slots=True)
+class Reached:
+    """How far a picture has come.
+
+    samples   of each pixel; some may have more where the time was over
+    error     the standard error of the picture relative to its mean, see `relative_error`; infinite where unknown
+    ended_by  "samples", "error" or "time": what ended it; "" where it goes on, or was cancelled
+    """
+
+    samples: int
+    error: float = math.inf
+    ended_by: str = ""
+
+    def facts(self):
+        """What a file should say of it, {str: str}; the error is a number, 0.01 is 1 %."""
+        error = f"{self.error:.6g}" if math.isfinite(self.error) else "not measured"
+        return {"samples": str(self.samples), "error": error, "ended_by": self.ended_by or "cancelled"}
+
+
+def error_sums(values):
+    """(sum of squared standard errors, sum of radiances, how many of them) of pixels {pass: (C, P)}, to be added over tiles."""
+    radiance, errors = (values[key][:3].astype(np.float64) for key in MEASURED_BY)
+    return np.array((np.square(errors).sum(), radiance.sum(), radiance.size))
+
+
+def relative_error(sums):
+    """The root of the mean squared standard error of all pixels and channels over their mean radiance: an unbiased guess of
+    the relative RMSE, from `error_sums` of all tiles. 0 for a picture that is black without a doubt."""
+    squares, radiance, count = sums
+    return math.sqrt(squares / count) / abs(radiance / count) if squares else 0.0
+
+
+class Ending:
+    """Which number of samples the whole frame gets next, and whether it gets any.
+
+    It is asked after every round with what has been reached. Rounds get longer as long as the end is far, so that looking
+    costs little, and shorter as it comes near, so that it is not missed by much.
+    """
+
+    def __init__(self, settings, ends=()):
+        """The clock starts. `ends` are numbers of samples at which to stop by in any case."""
+        self._begin, self._end = settings.rendered_samples
+        self._ends = ends
+        self._target = settings.error_target
+        self._limit = settings.time_limit
+        self._size = settings.replicate
+        self._started = time.monotonic()
+
+    def is_late(self):
+        """Whether the time is over."""
+        return bool(self._limit) and self._seconds() >= self._limit
+
+    def ended_by(self, samples, error):
+        """What ends a frame with so many `samples` and such an `error`; "" for nothing."""
+        if samples >= self._end:
+            return "samples"
+        if self._target and error <= self._target:
+            return "error"
+        return "time" if self.is_late() and samples > self._begin else ""
+
+    def following(self, samples, error):
+        """The number of samples at the end of the round that begins at `samples`."""
+        own = (self._end, *(end for end in self._ends if end > samples), *self._for_error(samples, error), *self._for_time(samples))
+        return min(own)
+
+    def share(self, samples, error):
+        """How much of the work is done after `samples`, in [0, 1], where error or time are to end it."""
+        by_error = samples / self._needed(samples, error) if self._target else 0.0
+        by_time = self._seconds() / self._limit if self._limit else 0.0
+        return min(max(by_error, by_time), 1.0)
+
+    def _for_error(self, samples, error):
+        if not self._target:
+            return
+        complete = (samples - self._begin) // self._size
+        # The variance falls as 1 / replicates. At the forecast number it is as likely as not too early still: no matter.
+        wanted = (self._needed(samples, error) - self._begin) / self._size if math.isfinite(error) else 2
+        yield self._begin + self._size * min(max(complete + 1, int(wanted), 2), max(2 * complete, 2))
+
+    def _for_time(self, samples):
+        if not self._limit:
+            return
+        done = samples - self._begin
+        speed = done / max(self._seconds(), 1e-3)
+        fits = speed * (self._limit - self._seconds())
+        yield samples + max(1, min(done, int(fits / 2)))
+
+    def _needed(self, samples, error):
+        return self._begin + (samples - self._begin) * (error / self._target) ** 2
+
+    def _seconds(self):
+        return time.monotonic() - self._started

@@ -1,0 +1,26 @@
+"""An interval around each pixel that holds the truth."""
+
+from ..maths.student import quantile_975
+from . import registry
+
+
+@registry.add
+class Confidence:
+    """Half the width of the interval about the pixel's radiance that holds the truth with 95 % [W m^-2 sr^-1]; infinite where unknown."""
+
+    key = "Confidence"
+    label = "Confidence (95 %)"
+    channels = "RGB"
+    records = ""
+    reduction = "replicates"
+    divided_by = ""
+
+    @staticmethod
+    def gather(film):
+        return film.radiance
+
+    @staticmethod
+    def of(replicates):
+        """(3, P), of the radiances of replicates."""
+        # By Student's distribution, for the error is an estimate from few replicates itself.
+        return replicates.standard_error() * quantile_975(replicates.count - 1)

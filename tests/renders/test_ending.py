@@ -1,0 +1,130 @@
+"""What ends a render: all samples, an error or a time, and what it says of that."""
+
+import math
+
+import numpy as np
+import pytest
+
+from glanz.engine import SceneError, ending, render, render_image
+from glanz.engine.ending import Ending
+from glanz.tests import helpers as h, scenes
+
+from .test_standard_error import lamp
+
+SMALL = {"width": 32, "height": 32, "max_depth": 0, "samples": 4096, "tile_size": 16}
+
+
+class Clock:
+    """A time [s] that passes by `step` whenever somebody looks."""
+
+    def __init__(self, step):
+        self.now, self.step = 0.0, step
+
+    def monotonic(self):
+        self.now += self.step
+        return self.now
+
+
+def relative_rmse(image, truth):
+    return math.sqrt(np.square(image.passes["Combined"][..., :3] - truth).mean()) / truth.mean()
+
+
+@pytest.mark.parametrize("target", [0.1, 0.025])
+@pytest.mark.parametrize("sampler", ["sobol", "stratified", "random"])
+def test_an_error_that_was_asked_for_is_reached_and_not_by_much_more(target, sampler):
+    """Of a picture whose truth is known: 0.9 to 1.1 of the target is 3072 values, of which the RMSE is known to 2.2 %."""
+    scene, truth = lamp()
+    image = render_image(scene, h.settings(**SMALL, error_target=target, sampler=sampler))
+    reached = float(image.metadata["glanz.reached.error"])
+    samples = int(image.metadata["glanz.reached.samples"])
+    assert image.metadata["glanz.reached.ended_by"] == "error"
+    assert reached <= target
+    assert samples == 32 or reached >= 0.85 * target
+    assert relative_rmse(image, truth) == pytest.approx(reached, rel=0.12)
+
+
+def test_what_has_ended_early_is_the_picture_of_so_many_samples():
+    scene, _ = lamp()
+    settings = h.settings(**SMALL, error_target=0.02, replicates=256)
+    image = render_image(scene, settings)
+    samples = int(image.metadata["glanz.reached.samples"])
+    assert 32 <= samples < 4096
+    again = render_image(scene, h.replaced(settings, error_target=0.0, sample_range=(0, samples)))
+    assert h.same_bits(image.passes["Combined"], again.passes["Combined"])
+
+
+def test_an_error_out_of_reach_takes_all_samples():
+    image = render_image(lamp()[0], h.settings(**SMALL | {"samples": 64}, error_target=1e-9))
+    assert image.metadata["glanz.reached.ended_by"] == "samples"
+    assert image.metadata["glanz.reached.samples"] == "64"
+    assert float(image.metadata["glanz.reached.error"]) > 1e-9
+
+
+def test_a_black_picture_is_without_error():
+    image = render_image(h.scene(), h.settings(**SMALL, error_target=0.01))
+    assert (image.metadata["glanz.reached.ended_by"], image.metadata["glanz.reached.error"]) == ("error", "0")
+
+
+def test_every_tile_is_final_once_and_progress_ends_at_one():
+    for more in ({"error_target": 0.05}, {"samples": 64}):
+        progress = list(render(lamp()[0], h.settings(**SMALL | more)))
+        final = [(tile.x, tile.y) for step in progress for tile in step.tiles if tile.is_final]
+        assert sorted(final) == [(0, 0), (0, 16), (16, 0), (16, 16)]
+        assert progress[-1].done == 1.0
+        assert progress[-1].reached.ended_by == ("error" if "error_target" in more else "samples")
+        assert all(0 <= step.done <= 1 for step in progress)
+
+
+@pytest.mark.parametrize("step", [0.05, 0.5, 50.0])
+def test_a_time_limit_ends_it_with_a_sample_of_every_pixel(monkeypatch, step):
+    monkeypatch.setattr(ending, "time", Clock(step))
+    image = render_image(scenes.everything(), h.settings(**SMALL | {"samples": 2**20}, time_limit=5.0, passes=("Combined", "Sample Count")))
+    count = image.passes["Sample Count"]
+    assert image.metadata["glanz.reached.ended_by"] == "time"
+    assert 1 <= count.min() <= count.max() < 2**20
+    assert int(image.metadata["glanz.reached.samples"]) == count.min()
+    assert np.isfinite(image.passes["Combined"]).all()
+
+
+def test_time_is_not_what_ends_a_picture_that_is_done(monkeypatch):
+    monkeypatch.setattr(ending, "time", Clock(1e-6))
+    image = render_image(scenes.everything(), h.settings(samples=4, time_limit=5.0))
+    assert image.metadata["glanz.reached.ended_by"] == "samples"
+
+
+def test_a_picture_that_time_has_cut_is_unbiased(monkeypatch):
+    """Where a row has more samples than the next both are means of their own."""
+    scene, truth = lamp()
+    monkeypatch.setattr(ending, "time", Clock(0.05))
+    settings = SMALL | {"samples": 2**20, "tile_size": 8, "passes": ("Combined", "Sample Count")}
+    image = render_image(scene, h.settings(**settings, time_limit=5.0))
+    assert image.passes["Sample Count"].min() < image.passes["Sample Count"].max()
+    assert h.mean_is(image.passes["Combined"][..., 0].reshape(-1).astype(float), truth[0], floor=1e-4)
+
+
+def test_rounds_look_seldom_while_the_end_is_far_and_often_when_it_is_near():
+    """A picture whose error is that of independent samples, for a target at 5,000: less than 20 looks, and 6 % too many at most."""
+    way = Ending(h.settings(samples=2**20, error_target=0.01))
+    samples, looks, error = 0, 0, math.inf
+    while not way.ended_by(samples, error):
+        following = way.following(samples, error)
+        assert following % 16 == 0 and following > samples
+        samples, looks = following, looks + 1
+        error = 0.01 * math.sqrt(5000 / samples)
+    assert 5000 <= samples <= 5300
+    assert looks < 20
+
+
+@pytest.mark.parametrize(
+    ("changes", "match"),
+    [
+        ({"error_target": -0.1}, "setting error_target is -0.1"),
+        ({"error_target": math.nan}, "setting error_target is nan"),
+        ({"time_limit": math.inf}, "setting time_limit is inf s"),
+        ({"time_limit": 1.0, "adaptive_threshold": 0.1}, "need an adaptive_threshold of 0"),
+    ],
+    ids=str,
+)
+def test_what_cannot_be_is_refused_by_name(changes, match):
+    with pytest.raises(SceneError, match=match):
+        h.settings(**changes)
