@@ -312,6 +312,8 @@ class Pass(Protocol):
     One that looks up what meshes and objects bring has `attributes`, keys as in `world.attributes`; `facts(scene, layer)`
     {str: str}, if there are any, are what files have to say of it. Passes that scenes name are of families, see `Registry`.
 
+    One of first hits whose values are weighed by what surfaces cover (`wavefront.passing.opacity`) says `covers = True`: they are
+    added up over all surfaces that camera rays pass straight on, where those that pass are rays of their own.
     One that sends shadow rays of its own says `sends_shadow_rays = True`.
     One that records light and asks by which kinds of lobes it has left the first surface says `is_split = True`, see
     `wavefront.splitting`.

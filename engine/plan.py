@@ -58,7 +58,7 @@ from .wavefront.motion import (
     to_the_end_of_moving_range,
 )
 from .wavefront.numbers import Numbers, one_of_the_lobes, only_lobe
-from .wavefront.passing import travel_through, unblocked_through
+from .wavefront.passing import record_beyond, travel_through, unblocked_through
 from .wavefront.relief import bend_normals
 from .wavefront.sights import closest_in_sight, closest_to_shadows, lit_by, lit_lobes, occluded_to_shadows, stay_of_kind
 from .wavefront.splitting import not_split, split_by_lobes, split_light
@@ -207,7 +207,8 @@ class Plan:
         shown_world = (add_environment,) if world.lights.environment else (add_background,) if needs.BACKGROUND in requirements else ()
         # Where what passes straight on is a ray of its own it does not count as one from the camera.
         splits_straight = integrator.tints_glass and any(map(is_straight, bsdfs))
-        minds_straight = splits_straight and (is_clear or has_holdouts)
+        covering = tuple(p for p in gathered if getattr(p, "covers", False)) if splits_straight else ()
+        minds_straight = splits_straight and bool(is_clear or has_holdouts or covering)
         on_rays = (
             *((media.add_light_hits_in_media if absorbs else add_light_hits,) if needs.LIGHT_HITS in requirements else ()),
             *((media.absorb,) if absorbs else ()),
@@ -300,7 +301,10 @@ class Plan:
                 *((fill_in_textures,) if world.materials.textured else ()),
                 *adjust_reflection,
             ),
-            on_surface=integrator.on_surface if can_sample else (),
+            on_surface=(
+                *(integrator.on_surface if can_sample else ()),
+                *((record_beyond(covering),) if covering else ()),
+            ),
             on_leaving=(
                 *((media.change_media,) if has_media else ()),
                 *((leave_with_cones,) if has_cones else ()),

@@ -19,6 +19,7 @@ class AmbientOcclusion(FirstHit):
     label = "Ambient Occlusion"
     channels = "RGB"
     sends_shadow_rays = True
+    covers = True
 
     @staticmethod
     def values(plan, rays, surface, reflection):

@@ -33,6 +33,7 @@ class Cryptomatte(FirstHit):
     channels = "rgba"
     rows = 2
     reduction = "ranks"
+    covers = True
 
     kind: str
     level: int

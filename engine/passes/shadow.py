@@ -4,6 +4,7 @@ import numpy as np
 
 from ..maths.vectors import dot
 from ..scene.textured import luminance
+from ..wavefront.passing import opacity
 from ..wavefront.recording import FirstHit
 from . import registry
 
@@ -14,8 +15,9 @@ _CHANNELS = "RGB"
 class Shadow(FirstHit):
     """Irradiance by lights where camera rays hit, over what it were if nothing were in the way: 1 lit, 0 in the dark or where none shines.
 
-    Both are averaged over the pixel first. Lights are lamps, glowing meshes and a picture of the world; a world that is the same
-    everywhere is none. Light counts on the side of the viewer, and from behind by the share of what lobes send on that is transmitted.
+    Both are averaged over what covers the pixel. Lights are lamps, glowing meshes and a picture of the world; a world that is the
+    same everywhere is none. Light counts on the side of the viewer, and from behind by the share of what lobes send on that is
+    transmitted.
     """
 
     key = divided_by = "Shadow"
@@ -23,12 +25,14 @@ class Shadow(FirstHit):
     channels = _CHANNELS
     rows = 2 * len(_CHANNELS)
     sends_shadow_rays = True
+    covers = True
 
     @staticmethod
     def values(plan, rays, surface, reflection):
         arrives, sent = np.zeros((2, *surface.wo.shape), np.float32)
+        covered = opacity(plan, rays, surface)
         for light, wi, distance, E in plan.to_lights(plan, rays, surface):
-            E = rays.beta * E * (reflection.cosine(surface, wi) * _share(reflection, surface, wi))
+            E = E * (covered * reflection.cosine(surface, wi) * _share(reflection, surface, wi))
             # What is no number is none.
             E = np.nan_to_num(plan.lit_lobes(plan, surface, reflection, wi, E, light), nan=0, posinf=0, neginf=0)
             sent += E

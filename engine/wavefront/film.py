@@ -16,13 +16,14 @@ class Film:
 
     radiance  (3, slots) float32, of each path
     clear     (1, slots) float32: the share of each path for which nothing is there
-    recorded  {pass: (C, slots) float32} of those that record something along the way, see `interfaces.Pass`
+    recorded  {pass: (C, slots) float32} of those that record something along the way, see `interfaces.Pass`; of "ranks" a list of them
     """
 
     def __init__(self, pixels, passes, replicate=1):
         """For `pixels` (P,) whose samples are in replicates of so many."""
         self.passes = passes
         self._parts = tuple(p for p in passes if p.records in ("light", "first hit and light"))
+        self._added = tuple(p for p in passes if p in self._parts or getattr(p, "covers", False))
         self.sums = {p.key: _gathering(p, pixels, replicate) for p in passes}
         self.samples = np.zeros(pixels, np.int64)
         self._weight = np.zeros(pixels)
@@ -40,7 +41,10 @@ class Film:
         slots = samples * (window.stop - window.start)
         self.radiance = np.zeros((3, slots), np.float32)
         self.clear = np.zeros((1, slots), np.float32)
-        self.recorded = {p.key: np.full((_rows(p), slots), p.background, np.float32) for p in self.passes if p.records}
+        self._slots = slots
+        self.recorded = {
+            p.key: [] if p.reduction == "ranks" else np.full((_rows(p), slots), p.background, np.float32) for p in self.passes if p.records
+        }
 
     def add(self, plan, rays, lanes, L, light, bounces):
         """Add radiance L (3, M) to the paths that `rays` of the indices `lanes` (M,) belong to, each at most once.
@@ -61,7 +65,10 @@ class Film:
 
     def meet(self, p, slot, values):
         """Record `values` (C, M) of the pass `p` where the paths of `slot` (M,) have met something first."""
-        if p in self._parts:
+        if p.reduction == "ranks":
+            self.recorded[p.key].append(np.zeros((_rows(p), self._slots), np.float32))
+            self.recorded[p.key][-1][:, slot] = values
+        elif p in self._added:
             self.recorded[p.key][:, slot] += values
         else:
             self.recorded[p.key][:, slot] = values
@@ -79,13 +86,10 @@ class Film:
                 self.recorded[p.key][:, bad] = 0
         for p in self.passes:
             values = self.recorded[p.key] if p.records else p.gather(self)
-            samples = values.reshape(len(values), self._count, -1)
             if p.reduction == "ranks":
-                number, weight = samples
-                self.sums[p.key].add(
-                    self._window.start, number, weight * np.reshape(self._weights, (-1, 1)) if len(self._weights) else weight
-                )
+                self._rank(p, values)
                 continue
+            samples = values.reshape(len(values), self._count, -1)
             if p.reduction == "replicates":
                 self.sums[p.key].add(self._window, self._first, samples * self._weights[:, None] if len(self._weights) else samples)
                 continue
@@ -98,6 +102,14 @@ class Film:
                 total += samples[:, i] * self._weights[i] if is_weighted else samples[:, i]
         self.samples[self._window] += self._count
         self._weight[self._window] += sum(self._weights) if len(self._weights) else self._count
+
+    def _rank(self, p, layers):
+        """Gather what was met, `layers` of (2, slots), in the order of samples, whatever else is in their batch."""
+        if layers:
+            number, weight = np.stack(layers, axis=1).reshape(2, len(layers), self._count, -1).swapaxes(1, 2)
+            weight = weight * np.reshape(self._weights, (-1, 1, 1)) if len(self._weights) else weight
+            first, size = self._window.start, number.shape[-1]
+            self.sums[p.key].add(first, number.reshape(-1, size), weight.reshape(-1, size))
 
     def pixels(self, is_whole=True):
         """{pass: (C, P) float64} of the samples gathered so far; 0, alpha too, for pixels without any.

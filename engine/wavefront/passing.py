@@ -19,6 +19,7 @@ from ..maths.vectors import dot, length
 from ..scene.textured import luminance
 from ..world.interaction import leave_on_either_side
 from ..world.texturing import TexturePoints, clean
+from .clear_film import STRAIGHT
 from .numbers import Dimension
 from .texturing import points_of
 from .views import RayView
@@ -120,18 +121,29 @@ def _behind(plan, rays, hits):
 
 
 def opacity(plan, rays, surface):
-    """The share (N,) of a pixel that a `surface` covers where camera `rays` have stayed: on average what it does not let pass."""
+    """The share (N,) of a pixel that a `surface` covers where camera `rays` have stayed: on average what does not go straight on."""
     table, share = plan.world.passing, rays.beta.mean(axis=0)
     if table is None:
         return share
-    clear = table.transmittance.take(surface.material, axis=1)
-    for row, textures in table.veils.items():
+    clear = table.straight.take(surface.material, axis=1)
+    for row, textures in table.shades.items():
         own = np.nonzero(surface.material == row)[0]
         if own.size:
             points = points_of(plan, rays, surface).take(own).met(partial(surface.take, own))
             for texture in textures:
                 clear[:, own] = np.minimum(clear[:, own] + clean(points.value(texture)), 1)
     return share * (1 - clear.mean(axis=0))
+
+
+def record_beyond(passes):
+    """The stage that has `passes` record what camera rays hit beyond surfaces where what goes straight on was a ray of its own."""
+
+    def record(plan, rays, surface, reflection, film):
+        lanes = np.nonzero(getattr(rays.carried, STRAIGHT))[0] if rays.depth else ()
+        for p in passes if len(lanes) else ():
+            film.meet(p, rays.slot.take(lanes), p.values(plan, rays, surface, reflection).take(lanes, axis=1))
+
+    return record
 
 
 def unblocked_through(plan, rays, o, d, limit, candidate):

@@ -13,16 +13,18 @@ from ..scene.textured import averaged, textures_of
 class Passing:
     """A column for each material; all but `alpha` is about that share of the surface which is there.
 
-    transmittance  (3, M) float32: the share of light that goes straight on
+    straight       (3, M) float32: the share of light that goes straight on
+    transmittance  (3, M) float32: the same, 0 where that is a ray of its own
     albedo         (3, M) float32: what all other lobes, and the illumination model, send on at most
     shadow         (3, M) float32: the share of light that shadow rays bring through
     alpha          (M,) float32: the share of the surface that is there, 1 for cut-outs
     cutouts        {row: the texture that is the alpha of that material}
     veils          {row: the textures whose values are to be added to that material's transmittance}
-    shades         {row: the same for `shadow`}
-    is_clear       (M,) bool: whether anything goes straight on
+    shades         {row: the same for `straight` and `shadow`}
+    is_clear       (M,) bool: whether rays may pass
     """
 
+    straight: np.ndarray
     transmittance: np.ndarray
     albedo: np.ndarray
     shadow: np.ndarray
@@ -43,9 +45,9 @@ class Passing:
                 is_veil = is_straight(lobe) and is_texture(lobe.transmittance)
                 if is_veil:
                     shades.setdefault(i, []).append(lobe.transmittance)
-                if is_straight(lobe) and not tints_glass:
-                    straight[:, i] += 0 if is_veil else lobe.transmittance
-                else:
+                if is_straight(lobe) and not is_veil:
+                    straight[:, i] += lobe.transmittance
+                if not is_straight(lobe) or tints_glass:
                     # All together reflect at most 1, whatever the textures are.
                     other[:, i] += 1 if textures_of(lobe) else albedo_of(lobe)
                 if lets_shadow_rays_pass(lobe, tints_glass) and not is_veil:
@@ -53,7 +55,8 @@ class Passing:
         cutouts = {row: material.alpha for row, material in enumerate(materials) if is_texture(material.alpha)}
         alpha = np.array([1 if row in cutouts else material.alpha for row, material in enumerate(materials)], np.float32)
         veils = {} if tints_glass else shades
-        is_clear = straight.any(axis=0) | (alpha < 1)
+        passed = np.zeros_like(straight) if tints_glass else straight
+        is_clear = passed.any(axis=0) | (alpha < 1)
         is_clear[[*cutouts, *veils]] = True
-        straight, shadow, other = (share.astype(np.float32) for share in (straight, shadow, other))
-        return cls(straight, other, shadow, alpha, cutouts, veils, shades, is_clear)
+        straight, passed, shadow, other = (share.astype(np.float32) for share in (straight, passed, shadow, other))
+        return cls(straight, passed, other, shadow, alpha, cutouts, veils, shades, is_clear)

@@ -5,7 +5,18 @@ import math
 import numpy as np
 import pytest
 
-from glanz.engine import Coordinates, Lambert, LinearTexture, Material, Mist, PerspectiveCamera, SceneError, World, render_image
+from glanz.engine import (
+    Coordinates,
+    Lambert,
+    LinearTexture,
+    Material,
+    Mist,
+    PerspectiveCamera,
+    SceneError,
+    Transparent,
+    World,
+    render_image,
+)
 from glanz.engine.interfaces import Pass
 from glanz.engine.maths.warps import square_to_uniform_hemisphere
 from glanz.engine.passes import ambient_occlusion
@@ -227,6 +238,18 @@ def test_ambient_occlusion_is_that_of_a_ceiling(distance, open_share, alpha):
     scene = h.replaced(scene, world=h.replaced(scene.world, occlusion_distance=distance))
     found = render_image(scene, h.settings(passes=("Ambient Occlusion",), samples=256)).passes["Ambient Occlusion"]
     assert found.mean() == pytest.approx(alpha * open_share, abs=6 * 0.5 / 128)
+
+
+@pytest.mark.parametrize("integrator", ["path", "whitted"])
+def test_ambient_occlusion_is_shared_by_what_covers_a_pixel(integrator):
+    """A veil, of which 0.4 is clear, under the open sky, before a floor under a ceiling that hides all."""
+    floor, ceiling = (h.quad((0, 0, z), (200, 0, 0), (0, 200, 0), name=str(z)) for z in (0, 0.01))
+    veil = Material(name="veil", lobes=(Lambert((0.5,) * 3), Transparent((0.4,) * 3)))
+    camera = PerspectiveCamera.look_at((0, 0, 2), (0, 0, 0), up=(0, 1, 0), fov=0.2)
+    ceiling = h.replaced(h.thing(ceiling), hidden_from=("camera", "glossy", "transmission"))
+    scene = h.scene([h.thing(floor), ceiling, h.thing(h.quad((0, 0, 1), (9, 0, 0), (0, 9, 0), name="veil"), veil)], camera=camera)
+    found = render_image(scene, h.settings(passes=("Ambient Occlusion",), samples=256, integrator=integrator))
+    assert found.passes["Ambient Occlusion"].mean() == pytest.approx(0.6, abs=6 * 0.5 / 128)
 
 
 def test_ambient_occlusion_catches_directions_that_are_not_cosines(monkeypatch):

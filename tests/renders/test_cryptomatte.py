@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from glanz.engine import PASSES, Material, PerspectiveCamera, Transparent, metadata, render_image
+from glanz.engine import PASSES, Material, PerspectiveCamera, Transparent, metadata, plan, render_image, rendering
 from glanz.engine.maths.murmur import id_bits, id_of, murmur3
 from glanz.engine.passes.cryptomatte import Cryptomatte
 from glanz.engine.wavefront.ranks import Ranks
@@ -58,11 +58,31 @@ def test_shares_are_areas_in_descending_order():
     assert_covered(covered(strips(0.25)), {"0": 0.25})
 
 
+@pytest.mark.parametrize("integrator", ["path", "distributed", "whitted"])
 @pytest.mark.parametrize("adaptive", [0.0, 0.1])
-def test_what_is_transparent_covers_what_it_hides(adaptive):
+def test_what_is_transparent_covers_what_it_hides(adaptive, integrator):
     veil = Material(name="veil", lobes=(*h.lambert(0.2).lobes, Transparent((0.3, 0.3, 0.3))))
-    assert_covered(covered(strips(1.0, front=veil), adaptive_threshold=adaptive), {"front": 0.7, "0": 0.3})
+    found = covered(strips(1.0, front=veil), adaptive_threshold=adaptive, integrator=integrator)
+    assert_covered(found, {"front": 0.7, "0": 0.3})
     assert_covered(covered(strips(1.0, front=h.replaced(h.lambert(), alpha=0.4))), {"0": 0.6, "front": 0.4})
+
+
+def test_the_shares_catch_surfaces_that_are_not_asked_beyond(monkeypatch):
+    monkeypatch.setattr(plan, "record_beyond", lambda passes: lambda *where: None)
+    with pytest.raises(AssertionError):
+        test_what_is_transparent_covers_what_it_hides(0.0, "whitted")
+
+
+def test_shares_of_trees_do_not_depend_on_batches(monkeypatch):
+    """Three veils that cross, which some rays meet in one order and some in another; to the bit."""
+    veil = Material(name="veil", lobes=(*h.lambert(0.2).lobes, Transparent((0.3, 0.4, 0.7))))
+    veils = [h.thing(h.quad((0, 0, 0), (3, 0, z), (0, 3, z), name=str(z)), veil) for z in (-0.5, 0.1, 0.6)]
+    settings = h.settings(integrator="whitted", passes=LEVELS, samples=16, pixel_filter="mitchell", max_depth=4)
+    whole = render_image(h.scene(veils), settings).passes
+    monkeypatch.setattr(rendering, "LANES", 48)
+    parts = render_image(h.scene(veils), h.replaced(settings, tile_size=5)).passes
+    assert all(h.same_bits(whole[key], parts[key]) for key in LEVELS)
+    assert (whole["CryptoObject01"][..., 1] > 0).any()
 
 
 def test_shares_do_not_depend_on_batches():

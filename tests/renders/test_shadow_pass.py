@@ -40,7 +40,7 @@ GREY = (0.5,) * 3
 
 def shadows(scene, samples=16, **changes):
     """(64, 3) float64, what pixels say."""
-    image = render_image(scene, h.settings(passes=("Shadow",), samples=samples, max_depth=0, **changes))
+    image = render_image(scene, h.settings(**{"passes": ("Shadow",), "samples": samples, "max_depth": 0} | changes))
     return image.passes["Shadow"].reshape(-1, 3).astype(np.float64)
 
 
@@ -177,12 +177,27 @@ def test_glass_is_in_the_way_of_those_who_follow_light_through_it():
     is_everywhere(shadows(over(glass), integrator="whitted"), TINT)
 
 
-@pytest.mark.parametrize("integrator", ["path", "distributed"])
-def test_the_first_surface_is_the_first_that_is_not_passed(integrator):
-    """Before the camera a pane hangs; it hangs in the way of no light."""
-    pane = h.thing(h.quad((0, 0, 0.05), (0.01, 0, 0), (0, 0.01, 0), name="pane"), Material(name="pane", lobes=(Transparent(TINT),)))
-    shade = half_plane(Material(name="shade", lobes=(Transparent(GREY),)), x=50)
-    is_everywhere(shadows(h.receiver([WHITE], [pane, shade], distance=0.1), integrator=integrator), 0.5)
+@pytest.mark.parametrize(("tint", "integrators"), [(TINT, ("path", "distributed", "path_naive")), ((1.0, 1.0, 1.0), INTEGRATORS)])
+def test_the_first_surface_is_the_first_that_is_not_passed(tint, integrators):
+    """A pane in the light before a floor that has half of it. Under Whitted, rays of their own pass; and what is lost in a pane covers."""
+    quad, shade = h.quad((0, 0, 0.05), (0.01, 0, 0), (0, 0.01, 0), name="pane"), Material(name="shade", lobes=(Transparent(GREY),))
+    pane, floor = h.thing(quad, Material(name="pane", lobes=(Transparent(tint),))), h.lambert(1.0)
+    beside = h.thing(h.quad((0.02, 0, 0.02), (0.02, 0, 0), (0, 0.02, 0), name="beside"), shade)
+    for integrator in integrators:
+        scene = h.receiver([WHITE], [pane, beside], distance=0.1, material=floor)
+        is_everywhere(shadows(scene, integrator=integrator, max_depth=2), 0.5)
+
+
+@pytest.mark.parametrize("integrator", ["path", "distributed", "whitted", "whitted_phong"])
+def test_surfaces_share_a_pixel_by_what_they_cover(integrator):
+    """A veil, of which 0.3 is clear, in the light, before a floor in the dark."""
+    veil = Material(name="veil", lobes=(Lambert(GREY), Transparent((0.3,) * 3)))
+    veil = h.thing(h.quad((0, 0, 0.05), (0.02, 0, 0), (0, 0.02, 0), name="veil"), veil)
+    dark = h.thing(h.quad((0.02, 0, 0.02), (0.02, 0, 0), (0, 0.02, 0), name="dark"), h.lambert())
+    scene = h.receiver([WHITE], [veil, dark], distance=0.1)
+    E_veil, E_floor = (z / (1 + z * z) ** 1.5 for z in (0.95, 1.0))
+    found = shadows(scene, samples=256, integrator=integrator, max_depth=1)
+    assert h.mean_is(found[:, 1], 0.7 * E_veil / (0.7 * E_veil + 0.3 * E_floor), floor=1e-4)
 
 
 def test_what_moves_is_in_the_way_for_a_time():
