@@ -27,7 +27,7 @@ READY := $(VENV)/.ready-$(VERSION)
 RUN := $(VENV)/bin/python
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render test test-thorough test-addon test-matrix desktop-test bench gallery nodes closures support extension extension-linux lint clean distclean
+.PHONY: help setup render test test-thorough test-addon test-matrix desktop-test bench bench-peers gallery nodes closures support extension extension-linux lint clean distclean
 
 help:
 	@echo "make render           render sample_scenes/cornell_box.blend to out/"
@@ -36,6 +36,7 @@ help:
 	@echo "make desktop-test     try Glanz in a Blender with a window: BLENDER=/path/to/blender make desktop-test"
 	@echo "make test-thorough    draw many new examples for tests of laws, in an hour; GLANZ_SEED=... draws the same again"
 	@echo "make bench            measure speed against Cycles"
+	@echo "make bench-peers      measure time and error against Cycles and Mitsuba, in half an hour; PEERS=--quick in five minutes"
 	@echo "make nodes            compare every node with Cycles for docs/nodes.md"
 	@echo "make closures         compare every shader with Cycles for docs/closures.md"
 	@echo "make support          write docs/support.md, what of Blender is rendered and how; with the newest Blender last"
@@ -79,6 +80,14 @@ test-thorough: $(READY)
 
 bench: $(READY)
 	$(RUN) -m benchmarks
+
+bench-peers: $(VENV)/.ready-peers
+	$(RUN) -m benchmarks.peers $(PEERS)
+
+# Mitsuba takes 200 MB, so it comes only here. What is set up anew removes this stamp, too.
+$(VENV)/.ready-peers: $(READY)
+	$(RUN) -m pip install --disable-pip-version-check --editable ".[$(EXTRAS),peers]" $(BLENDER)
+	@touch $@
 
 nodes: $(READY)
 	$(RUN) tools/node_table.py
