@@ -29,6 +29,10 @@ class Reached:
         return {"samples": str(self.samples), "error": error, "ended_by": self.ended_by or "cancelled"}
 
 
+NOT_BEGUN = Reached(0)
+"""Nothing yet."""
+
+
 def error_sums(values):
     """(sum of squared standard errors, sum of radiances, how many of them) of pixels {pass: (C, P)}, to be added over tiles."""
     radiance, errors = (values[key][:3].astype(np.float64) for key in MEASURED_BY)

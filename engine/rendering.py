@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .constants import VERSION
-from .ending import Ending, Reached, error_sums, relative_error
+from .ending import NOT_BEGUN, Ending, Reached, error_sums, relative_error
 from .errors import SceneWarning
 from .plan import Plan
 from .registry import PASSES
@@ -56,7 +56,7 @@ class Progress:
     tiles: tuple = ()
     warnings: tuple = ()
     in_work: tuple = ()
-    reached: Reached = Reached(0)
+    reached: Reached = NOT_BEGUN
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -136,7 +136,7 @@ def render_plan(plan, ends=(), cancelled=None):
 def render_image(scene, settings, on_progress=None):
     """The whole `Image`; `on_progress`, if given, is called with each `Progress`."""
     x0, y0, x1, y1 = settings.region
-    passes, warnings, reached = {}, [], Reached(0)
+    passes, warnings, reached = {}, [], NOT_BEGUN
     for progress in render(scene, settings):
         warnings += progress.warnings
         reached = progress.reached

@@ -12,6 +12,7 @@ TOGETHER = 16
 OF_ERROR = ("Standard Error", "Confidence")
 """Passes that ask for the error."""
 
+
 @dataclass(frozen=True, kw_only=True)
 class Settings:
     """How a scene is rendered. Raises SceneError naming the setting and its value.

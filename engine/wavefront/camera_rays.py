@@ -3,9 +3,8 @@
 import numpy as np
 
 from ..maths.warps import square_to_disk, square_to_polygon
-from .numbers import Dimension
+from .numbers import Dimension, seed_of
 from .records import Rays
-from .replicates import seed_of
 from .signed_filter import negative_samples, offsets
 
 

@@ -59,6 +59,11 @@ def _place(rays, dimension):
     return (dimension + _PER_BOUNCE * rays.depth) ^ rays.stream
 
 
+def seed_of(seed, replicate):
+    """The seed of a replicate, 0, 1, ...: those of the first are the numbers that there are without replicates."""
+    return int(mix_int(int(mix_int(seed)) + replicate * 0x9E3779B9)) if replicate else seed
+
+
 def hashed_pixel(px, py, width, seed):
     """Keys (P,) uint32 for samplers that treat all pixels alike: nothing is left of where they are."""
     return mix((py * width + px).astype(np.uint32) ^ mix_int(seed))

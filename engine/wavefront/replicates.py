@@ -9,13 +9,6 @@ complement each other.
 
 import numpy as np
 
-from ..maths.hashing import mix_int
-
-
-def seed_of(seed, replicate):
-    """The seed of a replicate, 0, 1, ...: those of the first are the numbers that there are without replicates."""
-    return int(mix_int(int(mix_int(seed)) + replicate * 0x9E3779B9)) if replicate else seed
-
 
 class Replicates:
     """What replicates of `size` samples of P pixels say of the mean of all samples; in float64 and in the order of samples.

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from glanz.engine.wavefront.replicates import Replicates, seed_of
+from glanz.engine.wavefront.numbers import seed_of
+from glanz.engine.wavefront.replicates import Replicates
 
 
 def gathered(values, size, first=0, at_once=3):
