@@ -11,6 +11,8 @@ from .perlin import MEAN_SIZES, noise
 
 _LEAST_WEIGHT = np.float32(0.001)
 """Blender's: from there on a hybrid multifractal has no finer octaves."""
+_TOGETHER = 2**12
+"""Points of noise that are looked up at once where there are few: calls of NumPy cost as much as that."""
 
 
 def fbm(octaves, roughness, offset, gain, is_normalized):
@@ -90,15 +92,36 @@ def fractal(p, half, kind, detail, roughness, lacunarity, offset=1.0, gain=1.0, 
 
 def _octaves(p, half, detail, lacunarity, is_folded):
     """Noise of each octave (N,), for ridges its size, and how much of it counts, from 0 to 1."""
-    scale = np.float32(1)
-    for i in range(int(np.ceil(detail.max(initial=0))) + 1):
-        signal = noise(scale * p)
-        mean = np.float32(0)
-        if is_folded:
-            signal, mean = np.abs(signal), np.float32(MEAN_SIZES[len(p)])
-        if half is not None:
-            fade = np.clip(2 - np.abs(4 * scale) * half, 0, 1)
-            fade = fade * fade * (3 - 2 * fade)
-            signal = fade * signal + (1 - fade) * mean
-        yield signal, np.clip(detail - np.float32(i - 1), 0, 1)
-        scale = scale * lacunarity
+    scales = [np.ones_like(lacunarity)]
+    for _ in range(int(np.ceil(detail.max(initial=0)))):
+        scales.append(scales[-1] * lacunarity)
+    several = max(1, _TOGETHER // max(p.shape[1], 1))
+    for first in range(0, len(scales), several):
+        scale = np.stack(scales[first : first + several]).reshape(-1, lacunarity.size)
+        for i, signal in enumerate(_faded(scale, p, half, is_folded), first):
+            yield signal, np.clip(detail - np.float32(i - 1), 0, 1)
+
+
+def _faded(scale, p, half, is_folded):
+    """Noise of octaves (O, N) that are as fine as `scale` (O, 1 or N), or its size, as much of it as is seen."""
+    q = scale * p[:, None]
+    if half is None:
+        signal = noise(q.reshape(len(p), -1)).reshape(q.shape[1:])
+        return np.abs(signal) if is_folded else signal
+    fade = np.clip(2 - np.abs(4 * scale) * half, 0, 1)
+    fade = fade * fade * (3 - 2 * fade)
+    signal = _where_seen(q, fade)
+    if is_folded:
+        return fade * np.abs(signal) + (1 - fade) * np.float32(MEAN_SIZES[len(p)])
+    return fade * signal
+
+
+def _where_seen(q, fade):
+    """Noise (O, N) at q (D, O, N), 0 where there is nothing of it to be seen."""
+    shape = np.broadcast_shapes(q.shape[1:], fade.shape)
+    q = np.broadcast_to(q, (len(q), *shape)).reshape(len(q), -1)
+    if fade.all():
+        return noise(q).reshape(shape)
+    signal, seen = np.zeros(q.shape[1], np.float32), np.nonzero(np.broadcast_to(fade, shape).ravel())[0]
+    signal[seen] = noise(q.take(seen, axis=1))
+    return signal.reshape(shape)

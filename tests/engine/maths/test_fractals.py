@@ -112,3 +112,26 @@ def test_the_mean_of_normalised_noise_is_a_half():
     p = places()
     wide = np.full(p.shape[1], np.float32(0.5))
     assert h.same_bits(fractal(p, wide, "fbm", [4], [0.5], [2], is_normalized=True), np.full(p.shape[1], np.float32(0.5)))
+
+
+@each
+def test_octaves_looked_up_together_are_those_looked_up_one_by_one(kind, monkeypatch):
+    """Few points have several octaves at a time; and of each octave only those where it is seen are looked up."""
+    p = places(64)
+    half = np.random.default_rng(3).uniform(0, 0.3, 64).astype(np.float32)
+    calls = h.spy(monkeypatch, fractals, "noise")
+
+    def found(together):
+        monkeypatch.setattr(fractals, "_TOGETHER", together)
+        return fractal(p, half, kind, *map(np.float32, ([4.5], [0.6], [2.1], [0.8], [1.5])))
+
+    assert h.same_bits(found(4096), found(1))
+    assert len(calls) == 1 + 6
+    assert calls[0].result.size == sum(call.result.size for call in calls[1:]) < 0.6 * 6 * 64
+
+
+def test_octaves_that_nobody_sees_are_not_worked_out(monkeypatch):
+    calls = h.spy(monkeypatch, fractals, "noise")
+    p = places(64)
+    fractal(p, np.full(64, np.float32(0.5)), "fbm", [15.0], [0.5], [2.0])
+    assert sum(call.result.size for call in calls) == 0
