@@ -18,6 +18,7 @@ import numpy as np
 from ..maths.ggx import alpha2_of_exponent
 from ..maths.lobes import LARGEST_EXPONENT, Highlight, sample_lobe, sample_lobe_pdf
 from ..maths.vectors import cosine_power, dot, length, reflect
+from ..maths.warps import square_to_cosine_power
 from . import registry
 
 _WIDTHS, _COSINES, _SIDE = 69, 33, 56
@@ -82,18 +83,20 @@ def _table():
 
     Both are from 0 to 1. So places near the horizon are told apart as finely as the lobe is narrow.
     """
-    u2 = (np.stack(np.meshgrid(np.arange(_SIDE), np.arange(_SIDE))).reshape(2, -1) + 0.5) / _SIDE
-    table, up = np.empty((_WIDTHS, _COSINES)), np.array((0.0, 0.0, 1.0))[:, None]
+    # One half of the lobe, the other is its mirror image.
+    u2 = (np.stack(np.meshgrid(np.arange(_SIDE), np.arange(_SIDE // 2))).reshape(2, -1) + 0.5) / _SIDE
+    table, up, y = np.empty((_WIDTHS, _COSINES)), np.array((0.0, 0.0, 1.0))[:, None], np.linspace(0, 1, _COSINES)
     widths = np.concatenate((np.linspace(0, _KINK, _NARROW + 1), np.linspace(_KINK, 1, _WIDTHS - _NARROW)[1:]))
-    for row, width in enumerate(np.maximum(widths, (LARGEST_EXPONENT + 1) ** -0.5)):
+    for row, width in zip(table, np.maximum(widths, (LARGEST_EXPONENT + 1) ** -0.5)):
         exponent = 1 / width**2 - 1
         a2 = alpha2_of_exponent(exponent)
-        for column, y in enumerate(np.linspace(0, 1, _COSINES)):
-            cos = min(width * y / (1 + width - y), 1.0)
-            axis, power = _lobe(np.float64(exponent), up, np.array((-np.sqrt(1 - cos * cos), 0.0, cos))[:, None])
-            c = np.maximum(sample_lobe(np.broadcast_to(axis, (3, u2.shape[1])), u2, power)[2], 0)
-            # Where c is 0, so is what is left.
-            table[row, column] = np.mean(2 * c / np.maximum(c + np.sqrt(a2 + (1 - a2) * c * c), np.finfo(float).tiny))
+        cos = np.minimum(width * y / (1 + width - y), 1.0)
+        axis, power = _lobe(np.float64(exponent), up, np.stack((-np.sqrt(1 - cos * cos), 0 * cos, cos)))
+        # Axes are in the plane of x and z; how far up directions about them are.
+        x, _, z = square_to_cosine_power(u2, power)
+        c = np.maximum(axis[2][:, None] * z - axis[0][:, None] * x, 0)
+        # Where c is 0, so is what is left.
+        row[:] = np.mean(2 * c / np.maximum(c + np.sqrt(a2 + (1 - a2) * c * c), np.finfo(float).tiny), axis=1)
     return table.astype(np.float32).ravel()
 
 

@@ -66,19 +66,28 @@ def moment(name, cos, roughness):
 
 def fresnel_moment(name, cos, roughness, eta):
     """F or V float32 (N,) for the index eta (N,) behind the surface over that before it."""
-    places = (_index_place(eta), _place(np.sqrt(np.abs(cos)), COSINES), _place(roughness, _ROUGHNESSES))
-    return _looked_up(_fresnel_moments()[name], places)
+    index, table = _around(_index_place(eta), lambda i: _fresnel_row(i)[name])
+    return _looked_up(table, (index, _place(np.sqrt(np.abs(cos)), COSINES), _place(roughness, _ROUGHNESSES)))
 
 
 def mean_albedo(roughness):
     """The mean (N,) of A over all wo, weighted by their cosines."""
-    return _looked_up(_mean("A"), (_place(roughness, _ROUGHNESSES),))
+    return _looked_up(_mean_a(), (_place(roughness, _ROUGHNESSES),))
 
 
 def boundary(cos, roughness, eta):
     """B float32 (N,), and its mean (N,) over all wo, weighted by their cosines."""
-    rough, index = _place(roughness, _ROUGHNESSES), _index_place(eta)
-    return _looked_up(_boundary(), (index, _place(np.sqrt(np.abs(cos)), COSINES), rough)), _looked_up(_mean("B"), (index, rough))
+    rough, place = _place(roughness, _ROUGHNESSES), _index_place(eta)
+    index, table = _around(place, _boundary_row)
+    _, means = _around(place, _mean_b)
+    return _looked_up(table, (index, _place(np.sqrt(np.abs(cos)), COSINES), rough)), _looked_up(means, (index, rough))
+
+
+def _around(place, row):
+    """A place among the indices of refraction, and the part of a table around it: `row`(i) each, worked out when first asked for."""
+    low, share = place
+    first, last = (int(low.min()), int(low.max())) if low.size else (0, 0)
+    return (low - first, share), np.stack([row(i) for i in range(first, last + 2)])
 
 
 def _index_place(eta):
@@ -135,6 +144,7 @@ def _visible():
     return c, cos, h[2], lambda z: np.where(z > 0, (1 + smith(cos)) / (1 + smith(cos) + smith(z)), 0)
 
 
+@lru_cache(maxsize=1)
 def _reflected():
     """c and w of what the visible normals reflect."""
     c, cos, up, masked = _visible()
@@ -149,38 +159,41 @@ def _moments():
 
 
 @lru_cache(maxsize=1)
-def _fresnel_moments():
+def _mean_a():
+    return _mean(_moments()["A"])
+
+
+@lru_cache(maxsize=_INDEX_STEPS)
+def _fresnel_row(i):
+    """F and V (COSINES, _ROUGHNESSES) float32 for an index of refraction."""
     c, w = _reflected()
-    shares = [_share(c, eta) for eta in _indices()]
-    return {
-        "F": np.array([(w * f).mean(axis=-1) for f in shares], np.float32),
-        "V": np.array([f.mean(axis=-1) for f in shares], np.float32),
-    }
+    share = _share(c, _index(i))
+    return {"F": (w * share).mean(axis=-1).astype(np.float32), "V": share.mean(axis=-1).astype(np.float32)}
 
 
-@lru_cache(maxsize=1)
-def _boundary():
-    """B (_INDEX_STEPS, COSINES, _ROUGHNESSES) float32."""
-    c, cos, up, masked = _visible()
-    reflected, rows = masked(2 * c * up - cos), []
-    for eta in _indices():
-        share = _share(c, eta)
-        down = cos / eta + (refracted_cosine(c, eta) - c / eta) * up
-        rows.append((reflected * share + masked(down) * (1 - share)).mean(axis=-1))
-    return np.array(rows, np.float32)
+@lru_cache(maxsize=_INDEX_STEPS)
+def _boundary_row(i):
+    """B (COSINES, _ROUGHNESSES) float32 for an index of refraction."""
+    (c, cos, up, masked), (_, reflected), eta = _visible(), _reflected(), _index(i)
+    share = _share(c, eta)
+    down = cos / eta + (refracted_cosine(c, eta) - c / eta) * up
+    return (reflected * share + masked(down) * (1 - share)).mean(axis=-1).astype(np.float32)
 
 
-@lru_cache(maxsize=2)
-def _mean(name):
-    """The mean of A (_ROUGHNESSES,) or B (_INDEX_STEPS, _ROUGHNESSES) over all wo, weighted by their cosines."""
-    values = _moments()["A"][None] if name == "A" else _boundary()
+@lru_cache(maxsize=_INDEX_STEPS)
+def _mean_b(i):
+    return _mean(_boundary_row(i))
+
+
+def _mean(values):
+    """The mean (_ROUGHNESSES,) of A or B (COSINES, _ROUGHNESSES) over all wo, weighted by their cosines."""
     # The tables' steps are those of the root of the cosine: d(cos^2) is in proportion to its cube.
-    return np.average(values, axis=1, weights=np.linspace(0, 1, COSINES) ** 3).astype(np.float32).squeeze()
+    return np.average(values, axis=0, weights=np.linspace(0, 1, COSINES) ** 3).astype(np.float32)
 
 
-def _indices():
-    roots = np.linspace(-_MOST_F0, _MOST_F0, _INDEX_STEPS)
-    return (1 + roots) / (1 - roots)
+def _index(i):
+    root = np.linspace(-_MOST_F0, _MOST_F0, _INDEX_STEPS)[i]
+    return (1 + root) / (1 - root)
 
 
 def _share(c, eta):

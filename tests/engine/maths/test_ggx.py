@@ -5,6 +5,7 @@ import pytest
 
 from glanz.engine.maths import ggx
 from glanz.engine.maths.fresnel import fresnel_dielectric
+from glanz.tests import helpers as h
 
 COSINES = np.linspace(0.05, 1, 39, dtype=np.float32)
 
@@ -109,3 +110,17 @@ def test_a_smooth_boundary_sends_on_all():
         once, mean = ggx.boundary(COSINES, np.float32(0), np.float32(eta))
         assert once == pytest.approx(1, abs=1e-3)
         assert mean == pytest.approx(1, abs=1e-3)
+
+
+def test_only_what_is_asked_for_of_the_tables_is_worked_out():
+    """A scene of one index of refraction needs the entries on both sides of it; who else is there changes nothing."""
+    rows = ggx._fresnel_row, ggx._boundary_row
+    for row in rows:
+        row.cache_clear()
+    cos, roughness, eta = np.float32([0.3, 0.8]), np.float32([0.2, 0.7]), np.float32([1.5])
+    alone = [ggx.fresnel_moment("F", cos, roughness, eta), *ggx.boundary(cos, roughness, eta)]
+    assert [row.cache_info().currsize for row in rows] == [2, 2]
+    others = [*(np.tile(a, 2) for a in (cos, roughness)), np.float32([1.5, 1.5, 0.5, 3.0])]
+    together = [ggx.fresnel_moment("F", *others), *ggx.boundary(*others)]
+    assert all(h.same_bits(a, b[:2]) for a, b in zip(alone, together))
+    assert ggx.fresnel_moment("F", *np.zeros((3, 0), np.float32)).shape == (0,)
