@@ -3,8 +3,9 @@
 Nothing here knows Blender. What is to be shown is handed over as values of the engine; `Session.picture` is what there is to
 be seen of it, at any time. One thread decides what is done next, and waits while there is nothing to do.
 
-First comes a coarse picture, as coarse as it must be to be there at once; it is never given up half done, or whoever
-moves the view without a pause would see nothing. Then come finer ones, and at last sample after sample for each pixel, all
+First comes a coarse picture, as coarse as it must be to be there at once, and of few bounces where that does not help, for
+each costs its time however few rays there are; it is never given up half done, or whoever moves the view without a pause
+would see nothing. Then come finer ones, and at last sample after sample for each pixel, all
 of which are given up at once when something else is wished for.
 """
 
@@ -18,13 +19,13 @@ from ..engine import prepare, render_plan
 from .reports import counted, explain
 
 ENDLESS = 2**16
-"""Samples where there shall be no end."""
+"""Samples, or bounces, where there shall be no end."""
 FIRST_SECONDS = 0.06
 """How long the first picture after a change may take; it is made coarser or finer accordingly."""
 SHOW_SECONDS = 0.2
 """How often pictures are shown that are not complete."""
-_COARSE = (1, 2, 4, 8, 16)
-"""How wide the pixels of the first picture may be."""
+_FIRST = ((1, ENDLESS), (2, ENDLESS), (4, ENDLESS), (8, ENDLESS), (16, ENDLESS), (16, 2))
+"""How wide the pixels of the first picture may be, and how many bounces it may have: two show what is behind glass."""
 _FINER = 4
 """From a coarse picture to the next one."""
 _AT_ONCE = 4
@@ -67,7 +68,8 @@ class Session:
         self._changed = threading.Condition()
         self._stale, self._closed = threading.Event(), threading.Event()
         self._plan, self._compiled = None, None
-        self._coarse = 3
+        # What it takes nobody knows yet.
+        self._first = len(_FIRST) - 1
         self._thread = None
 
     @property
@@ -133,10 +135,10 @@ class Session:
 
     def _fulfil(self, wish):
         self._prepare(wish)
-        begun, first = time.monotonic(), self._coarse
-        picture = self._refine(wish, _COARSE[first], 1, None, self._closed)
+        begun, (coarse, depth) = time.monotonic(), _FIRST[self._first]
+        picture = self._refine(wish, coarse, 1, None, self._closed, depth)
         self._adapt(time.monotonic() - begun)
-        coarse = _COARSE[first] // _FINER
+        coarse //= _FINER
         while coarse > 1 and picture:
             picture = self._refine(wish, coarse, 1, picture, self._stale)
             coarse //= _FINER
@@ -158,14 +160,18 @@ class Session:
     def _adapt(self, seconds):
         """Make the next first picture coarser or finer."""
         if seconds > FIRST_SECONDS:
-            self._coarse = min(self._coarse + 1, len(_COARSE) - 1)
+            self._first = min(self._first + 1, len(_FIRST) - 1)
         elif seconds * _FINER < FIRST_SECONDS:
-            self._coarse = max(self._coarse - 1, 0)
+            self._first = max(self._first - 1, 0)
 
-    def _refine(self, wish, coarse, samples, before, cancelled):
-        """Show the picture with pixels so `coarse`, over the one `before`, until it has its `samples`; None where it was given up."""
+    def _refine(self, wish, coarse, samples, before, cancelled, depth=ENDLESS):
+        """Show the picture with pixels so `coarse`, over the one `before`, until it has its `samples`; None where it was given up.
+
+        It has `depth` bounces at most.
+        """
         width, height = (-(-side // coarse) for side in (wish.settings.width, wish.settings.height))
-        plan = self._plan.seen_from(wish.view.camera(), replace(wish.settings, width=width, height=height, samples=samples))
+        film = {"width": width, "height": height, "samples": samples, "max_depth": min(wish.settings.max_depth, depth)}
+        plan = self._plan.seen_from(wish.view.camera(), replace(wish.settings, **film))
         pixels = enlarged(before.pixels, width, height) if before else np.zeros((height, width, 4), np.float32)
         shown = time.monotonic()
         for progress in render_plan(plan, (1, 2, *range(_AT_ONCE, samples, _AT_ONCE)), cancelled):

@@ -163,21 +163,35 @@ def test_coarse_pictures_come_first_and_are_left_for_what_is_wished_next(session
     session.look(At(-2), SETTINGS)
     assert_same(finished(session), fresh(At(-2)))
     coarse = [call.args[2] for call in refined]
-    assert coarse[:3] == [8, 2, 1]
+    assert coarse[:3] == [16, 4, 1]
     assert coarse[3] > 1
     assert coarse[-1] == 1
 
 
-@pytest.mark.parametrize(("seconds", "widths"), [(0.0, [8, 16, 16]), (1e9, [8, 4, 2])])
-def test_first_pictures_become_as_coarse_as_their_time_asks_for(session, monkeypatch, seconds, widths):
-    """They take too long, or hardly any of what they may."""
+@pytest.mark.parametrize(
+    ("before", "seconds", "levels"),
+    [(5, 0.0, [(16, 2)] * 3), (3, 0.0, [(8, ENDLESS), (16, ENDLESS), (16, 2)]), (5, 1e9, [(16, 2), (16, ENDLESS), (8, ENDLESS)])],
+)
+def test_first_pictures_become_as_coarse_as_their_time_asks_for(session, monkeypatch, before, seconds, levels):
+    """They take too long, or hardly any of what they may; nobody knows of the very first."""
+    assert session._first == 5
+    session._first = before
     monkeypatch.setattr(viewport, "FIRST_SECONDS", seconds)
     refined = h.spy(monkeypatch, Session, "_refine")
     session.show(SCENE)
     for x in range(3):
         session.look(At(x), SETTINGS)
         finished(session)
-    assert [call.args[2] for call in refined if call.args[4] is None] == widths
+    assert [(call.args[2], call.args[6]) for call in refined if call.args[4] is None] == levels
+
+
+@pytest.mark.parametrize(("asked", "traced"), [(1, 1), (3, 2)])
+def test_the_very_first_picture_has_few_bounces_and_the_others_what_is_asked_for(session, monkeypatch, asked, traced):
+    rendered = h.spy(monkeypatch, viewport, "render_plan")
+    session.show(SCENE)
+    session.look(At(), h.replaced(SETTINGS, max_depth=asked))
+    finished(session)
+    assert [call.args[0].settings.max_depth for call in rendered] == [traced, asked, asked]
 
 
 def test_no_samples_without_end(session):
