@@ -25,6 +25,8 @@ endif
 
 READY := $(VENV)/.ready-$(VERSION)
 RUN := $(VENV)/bin/python
+# A process for each core, which takes over from others what they have still to do. One that crashes fails the test it was at.
+PYTEST := $(RUN) -m pytest --numprocesses auto --dist worksteal
 
 .DEFAULT_GOAL := help
 .PHONY: help setup render test test-thorough test-addon test-matrix desktop-test bench bench-peers gallery nodes closures support extension extension-linux lint clean distclean
@@ -64,10 +66,10 @@ render: $(READY)
 	$(VENV)/bin/glanz render sample_scenes/cornell_box.blend -o out/cornell_box.exr -o out/cornell_box.png
 
 test: $(READY)
-	$(RUN) -m pytest
+	$(PYTEST)
 
 test-addon: $(READY)
-	$(RUN) -m pytest tests/addon tests/cli tests/packaging
+	$(PYTEST) tests/addon tests/cli tests/packaging
 
 test-matrix:
 	@$(PYTHON) tools/test_matrix.py
@@ -76,7 +78,7 @@ desktop-test: $(READY)
 	@platform=$$($(RUN) tests/desktop/run.py --platform) && $(RUN) tools/build_extension.py $$platform && $(RUN) tests/desktop/run.py $(SCRIPTS)
 
 test-thorough: $(READY)
-	GLANZ_SEED=$${GLANZ_SEED:-$$(date +%s)} $(RUN) -m pytest -m thorough
+	GLANZ_SEED=$${GLANZ_SEED:-$$(date +%s)} $(PYTEST) -m thorough
 
 bench: $(READY)
 	$(RUN) -m benchmarks

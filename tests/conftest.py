@@ -1,5 +1,7 @@
 """Shared by all tests. Helpers are imported by name: `from glanz.tests import helpers`."""
 
+import gc
+
 import pytest
 
 from glanz.tests import chance
@@ -12,3 +14,9 @@ def pytest_report_header():
     if chance.SEED is not None:
         return f"GLANZ_SEED={chance.SEED} draws the same examples again"
     return None
+
+
+def pytest_collection_finish():
+    """A million objects that live as long as the tests: no collection of garbage is to look at them again."""
+    gc.collect()
+    gc.freeze()
