@@ -1,4 +1,4 @@
-"""What Blender says has changed since it told the last time, and what of it may concern shapes and images."""
+"""What Blender says has changed since it told the last time, and what of it may concern shapes, images and looks."""
 
 import bpy
 
@@ -40,3 +40,17 @@ def changed_images(depsgraph):
         return None
     trees = [update.id for update in updates if isinstance(update.id, bpy.types.NodeTree)]
     return identities(*images, *(getattr(node, "image", None) for tree in trees for node in tree.nodes))
+
+
+def changed_looks(depsgraph):
+    """`identities` of materials and worlds that may have changed, None where that may be any."""
+    updates = [update.id for update in depsgraph.updates]
+    trees = [datablock for datablock in updates if isinstance(datablock, bpy.types.ShaderNodeTree)]
+    owners = [datablock for datablock in updates if isinstance(datablock, (bpy.types.Material, bpy.types.World))]
+    # Of groups, and where Blender says that there is something and not what, it may be anything.
+    is_unsaid = not trees and not owners and any(map(depsgraph.id_type_updated, ("MATERIAL", "WORLD", "NODETREE")))
+    if is_unsaid or not all(tree.is_embedded_data for tree in trees):
+        return None
+    originals = [tree.original for tree in trees]
+    owners += [owner for owner in (*bpy.data.materials, *bpy.data.worlds) if originals and owner.node_tree in originals]
+    return identities(*owners)

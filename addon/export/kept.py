@@ -1,23 +1,25 @@
-"""What is not exported again: meshes and images that are as they were."""
+"""What is not exported again: meshes, images, materials and worlds that are as they were."""
 
 from .bitmaps import Bitmaps
-from .changes import changed_images, changed_shapes, identities
+from .changes import changed_images, changed_looks, changed_shapes, identities
+from .looks import Looks
 from .stamps import no_stamp
 
 
 class Kept:
-    """The engine's meshes and bitmaps, by the data-blocks that they are of.
+    """The engine's meshes, bitmaps and `looks`, by the data-blocks that they are of.
 
     stamp  what else tells that an image has changed, see `stamps`
     """
 
     def __init__(self, stamp=no_stamp):
         self._meshes, self._wanted, self._exported = {}, set(), set()
-        self._bitmaps = Bitmaps(stamp=stamp)
+        self._bitmaps, self.looks = Bitmaps(stamp=stamp), Looks(stamp)
 
     def begin(self, frame):
         """`Bitmaps` for an export at a frame of the scene, which begins."""
         self._exported = set()
+        self.looks.begin()
         return self._bitmaps.begin(frame)
 
     def mesh(self, ob, attributes, make):
@@ -43,9 +45,11 @@ class Kept:
         shapes, images = changed_shapes(depsgraph), changed_images(depsgraph)
         self._meshes = {key: value for key, value in self._meshes.items() if shapes is not None and not value[0] & shapes}
         self._bitmaps.forget(images)
+        self.looks.forget(changed_looks(depsgraph), images)
 
     def tidy(self):
         """Forget what nobody has asked for since this was called the last time."""
         self._meshes = {key: value for key, value in self._meshes.items() if key in self._wanted}
         self._wanted = set()
         self._bitmaps.tidy()
+        self.looks.tidy()

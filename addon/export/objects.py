@@ -233,7 +233,10 @@ class _Parts:
                 note_missing(datablock, f"{kind} '{datablock.name}'", self._findings)
 
     def _material(self, material):
-        return self._once(material, "all", lambda: export_material(material, self._findings, self._bitmaps, self._aovs))
+        def make(findings):
+            return export_material(material, findings, self._bitmaps, self._aovs)
+
+        return self._once(material, "all", lambda: self._kept.looks.of(material, frozenset(self._aovs), self._findings, make))
 
     def _is_volume_only(self, material):
         return self._once(material, "volume", lambda: is_volume_only(material))

@@ -95,8 +95,9 @@ def _contents(depsgraph, findings, kept, check=lambda: None, tracks=STILL, is_sh
     """What `Scene`s have but for their cameras, {name: value}."""
     layer, bitmaps = depsgraph.view_layer_eval, kept.begin(depsgraph.scene_eval.frame_current)
     override = _evaluated(layer.material_override, depsgraph)
-    world = _evaluated(getattr(layer, "world_override", None) or depsgraph.scene_eval.world, depsgraph)
-    world = export_world(world, findings, bitmaps, asked.get("aovs", ()))
+    datablock = _evaluated(getattr(layer, "world_override", None) or depsgraph.scene_eval.world, depsgraph)
+    shown = asked.get("aovs", ())
+    world = kept.looks.of(datablock, frozenset(shown), findings, lambda findings: export_world(datablock, findings, bitmaps, shown))
     # Last, for to see what moves Blender has to leave the frame.
     objects, lights = export_objects(depsgraph, findings, bitmaps, override, check, tracks, kept, is_shown, **asked)
     return {"objects": objects, "lights": lights, "world": world}

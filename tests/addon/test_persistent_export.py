@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from glanz.addon import export, persistent
-from glanz.addon.export import Findings, Kept, bitmaps, images, kept as module, objects, stamps
+from glanz.addon.export import Findings, Kept, bitmaps, images, kept as module, objects, scene, stamps
 from glanz.addon.persistent import is_same
 from glanz.tests.addon import blender
 from glanz.tests.addon.export.test_images import save, sequence
@@ -21,11 +21,12 @@ class Renders:
     """F12 with persistent data, of which each export is compared with one from scratch.
 
     read   the meshes and images that were read, by name, of the last F12
+    looks  the same of materials and worlds
     wrong  how many exports were another
     """
 
     def __init__(self, monkeypatch):
-        self.read, self.wrong, self.count = [], 0, 0
+        self.read, self.looks, self.wrong = [], [], 0
         self._is_fresh = False
         export_views = export.export_views
 
@@ -34,27 +35,28 @@ class Renders:
             self._is_fresh = True
             fresh = export_views(*args[:-2], Findings(), Kept())
             self._is_fresh = False
-            self.count += 1
             self.wrong += not is_same(found, fresh)
             return found
 
         monkeypatch.setattr(export, "export_views", compared)
-        self._listen(monkeypatch, objects, "_exported", lambda ob, *_: ob.name)
-        self._listen(monkeypatch, images, "_read", lambda image, frame: image.name)
-        self._listen(monkeypatch, bitmaps, "tiles_of", lambda image, *_: image.name)
+        self._listen(monkeypatch, objects, "_exported", "read")
+        self._listen(monkeypatch, images, "_read", "read")
+        self._listen(monkeypatch, bitmaps, "tiles_of", "read")
+        self._listen(monkeypatch, objects, "export_material", "looks")
+        self._listen(monkeypatch, scene, "export_world", "looks")
 
-    def _listen(self, monkeypatch, module, name, name_of):
+    def _listen(self, monkeypatch, module, name, heard):
         original = getattr(module, name)
 
-        def heard(*args):
-            if not self._is_fresh:
-                self.read.append(name_of(*args))
-            return original(*args)
+        def listening(datablock, *args):
+            if datablock and not self._is_fresh:
+                getattr(self, heard).append(datablock.name)
+            return original(datablock, *args)
 
-        monkeypatch.setattr(module, name, heard)
+        monkeypatch.setattr(module, name, listening)
 
     def f12(self):
-        self.read = []
+        self.read, self.looks = [], []
         bpy.context.scene.render.use_persistent_data = True
         bpy.ops.render.render()
         return self.read
@@ -88,16 +90,88 @@ def test_what_is_as_it_was_is_not_read_again(renders):
     _shown(bpy.data.images.new("Image", 4, 4))
     _shown(bpy.data.images.new("Sky", 4, 4), "ShaderNodeTexEnvironment")
     assert sorted(renders.f12()) == ["Image", "Moved", "Plane", "Reshaped", "Sky", "Still"]
-    assert renders.f12() == []
+    assert renders.looks == ["World", "Shown"]
+    assert renders.f12() == renders.looks == []
     moved.location.x = 1
     bpy.context.scene.camera.location.x = 1
     bpy.data.materials["Shown"].node_tree.nodes["Emission"].inputs["Strength"].default_value = 2
     bpy.context.scene.frame_set(7)
     # An image is read again where Blender says no more than that the nodes have changed which show it.
     assert set(renders.f12()) <= {"Image"}
+    assert renders.looks == ["Shown"]
     reshaped.data.vertices[0].co.z = 1
     assert renders.f12() == ["Reshaped"]
+    assert renders.looks == []
     assert renders.wrong == 0
+
+
+def _in_a_group(material):
+    group = bpy.data.node_groups.new("Group", "ShaderNodeTree")
+    group.interface.new_socket("Value", in_out="OUTPUT", socket_type="NodeSocketFloat")
+    value, output = group.nodes.new("ShaderNodeValue"), group.nodes.new("NodeGroupOutput")
+    group.links.new(value.outputs[0], output.inputs[0])
+    node = material.node_tree.nodes.new("ShaderNodeGroup")
+    node.node_tree = group
+    material.node_tree.links.new(node.outputs[0], material.node_tree.nodes["Emission"].inputs["Strength"])
+    return lambda: setattr(value.outputs[0], "default_value", 3)
+
+
+def _of_an_object(material):
+    tree, empty = material.node_tree, blender.link("Empty", None)
+    node = tree.nodes.new("ShaderNodeTexCoord")
+    node.object = empty
+    tree.links.new(node.outputs["Object"], tree.nodes["Emission"].inputs["Color"])
+    return lambda: setattr(empty, "location", (1, 2, 3))
+
+
+def _driven(material):
+    strength = material.node_tree.nodes["Emission"].inputs["Strength"]
+    strength.driver_add("default_value").driver.expression = "frame"
+    return lambda: bpy.context.scene.frame_set(5)
+
+
+def _of_the_lecture(material):
+    material.glanz.use_lecture = True
+    return lambda: setattr(material.glanz, "k_d", (0.1, 0.2, 0.3))
+
+
+def _indexed(material):
+    return lambda: setattr(material, "pass_index", 3)
+
+
+def _named(material):
+    return lambda: setattr(material, "name", "Another")
+
+
+def _swapped(material):
+    other = blender.new_material("Other", "ShaderNodeBsdfDiffuse")
+    return lambda: bpy.data.meshes["Plane"].materials.__setitem__(0, other)
+
+
+def _overridden(material):
+    return lambda: setattr(bpy.context.view_layer, "material_override", blender.new_material("Other", "ShaderNodeBsdfDiffuse"))
+
+
+@pytest.mark.parametrize("edit", [_in_a_group, _of_an_object, _driven, _of_the_lecture, _indexed, _named, _swapped, _overridden])
+def test_materials_that_change_are_read_again(edit, renders):
+    material = blender.new_material("Shown", "ShaderNodeEmission")
+    blender.add_plane().data.materials.append(material)
+    change = edit(material)
+    renders.f12()
+    change()
+    renders.f12()
+    assert renders.looks
+    assert renders.wrong == 0
+
+
+def test_materials_that_are_believed_to_be_the_same_would_be_seen_here(renders, monkeypatch):
+    monkeypatch.setattr(module, "changed_looks", lambda depsgraph: set())
+    material = blender.new_material("Shown", "ShaderNodeEmission")
+    blender.add_plane().data.materials.append(material)
+    renders.f12()
+    material.node_tree.nodes["Emission"].inputs["Strength"].default_value = 2
+    renders.f12()
+    assert renders.wrong == 1
 
 
 def _paint(image):

@@ -121,6 +121,20 @@ def test_images_are_read_once_and_again_after_a_change(scene):
     assert bitmap() is not first
 
 
+def test_materials_are_read_once_and_again_after_a_change(scene):
+    material = blender.new_material("Lamp", "ShaderNodeEmission")
+    scene.after(lambda: bpy.data.meshes["Plane"].materials.append(material))
+
+    def look():
+        return scene.objects["Plane"].materials[0]
+
+    first = look()
+    scene.after(lambda: setattr(bpy.data.objects["Cube"], "location", (0, 0, 3)))
+    assert look() is first
+    scene.after(lambda: setattr(material.node_tree.nodes["Emission"].inputs["Strength"], "default_value", 7))
+    assert look().emission == (7, 7, 7)
+
+
 def test_what_is_missing_is_told_each_time(scene):
     material = blender.new_material("Shown", "ShaderNodeEmission")
     texture = material.node_tree.nodes.new("ShaderNodeTexImage")
@@ -180,12 +194,8 @@ def test_pictures_that_are_not_asked_for_any_more_are_forgotten():
     tree.links.new(texture.outputs[0], shader.inputs["Color"])
     tree.links.new(shader.outputs[0], tree.nodes.new("ShaderNodeOutputMaterial").inputs["Surface"])
     blender.add_plane().data.materials.append(material)
-    kept = Kept()
+    viewer = Viewer()
     for i in range(4):
-        texture.image = bpy.data.images.new(f"Frame {i}", 4, 4)
-        depsgraph = bpy.context.evaluated_depsgraph_get()
-        kept.forget(depsgraph)
-        kept.tidy()
-        export_contents(depsgraph, kept)
-    kept.tidy()
-    assert len(kept._bitmaps._known) == 1
+        viewer.after(lambda i=i: setattr(texture, "image", bpy.data.images.new(f"Frame {i}", 4, 4)))
+        assert viewer.objects["Plane"].materials[0].lobes[0].reflectance.bitmap.name == f"Frame {i}"
+    assert len(viewer.kept._bitmaps._known) <= 2
