@@ -156,7 +156,7 @@ def show_preferences():
 
 
 def press(key):
-    """Press "ESC" or "F12" on the keyboard, above the middle of the main window."""
+    """Press "ESC", "RETURN" or "F12" on the keyboard, above the middle of the main window."""
     move()
     _screen.press(key)
 

@@ -10,7 +10,7 @@ import struct
 import sys
 import zlib
 
-KEYS = {"ESC": 0xFF1B, "F12": 0xFFC9}
+KEYS = {"ESC": 0xFF1B, "F12": 0xFFC9, "RETURN": 0xFF0D}
 """X11 key symbols."""
 
 
