@@ -20,6 +20,9 @@ def _coefficient(name, description, default):
     )
 
 
+_MORE_RAYS = "; above 0 Whitted's ray tracing follows one ray more from each hit, which takes its time"
+
+
 class GlanzMaterialSettings(bpy.types.PropertyGroup):
     """The lecture's parameters of a material, and what is inside of objects that wear it, in Glanz."""
 
@@ -54,8 +57,8 @@ class GlanzMaterialSettings(bpy.types.PropertyGroup):
         default="phong",
         update=renew,
     )
-    k_r: _coefficient("Reflection k_r", "Share of light that is reflected as by a mirror", 0.0)
-    k_t: _coefficient("Transmission k_t", "Share of light that passes the surface", 0.0)
+    k_r: _coefficient("Reflection k_r", f"Share of light that is reflected as by a mirror{_MORE_RAYS}", 0.0)
+    k_t: _coefficient("Transmission k_t", f"Share of light that passes the surface{_MORE_RAYS}", 0.0)
     is_sheet: BoolProperty(
         name="Thin Sheet",
         description=(
@@ -118,7 +121,8 @@ class GlanzMaterialSettings(bpy.types.PropertyGroup):
         name="Abbe Number",
         description=(
             "Dispersion of glass: Abbe number, without a unit; 0 = none. Small numbers spread colours more: "
-            "crown glass has 64, water 56, diamond 55, flint glass 30. The index of refraction then is that of yellow light"
+            "crown glass has 64, water 56, diamond 55, flint glass 30. The index of refraction then is that of yellow light. "
+            "Path tracing follows one colour at a time behind such glass, so that there is more noise, and in colours"
         ),
         default=0.0,
         min=0.0,

@@ -37,7 +37,7 @@ class GlanzSceneSettings(bpy.types.PropertyGroup):
 
     integrator: EnumProperty(
         name="Integrator",
-        description="How light is followed through the scene: which effects there are, and what they cost",
+        description="How light is followed through the scene: which effects there are, and what they cost in time and noise",
         # A function, so that registering Glanz does not load the engine; its default is the stored number.
         items=lambda self, context: enum_items("INTEGRATORS"),
         default=stored_number("path"),
@@ -54,7 +54,7 @@ class GlanzSceneSettings(bpy.types.PropertyGroup):
         name="Viewport Samples",
         description=(
             "Paths per pixel in rendered 3D views, after which they rest; 0 goes on until something changes. "
-            "The first picture comes as soon with any number; noise halves with four times as many"
+            "The first picture comes as soon with any number; time grows in proportion, noise halves with four times as many"
         ),
         default=32,
         min=0,
@@ -98,7 +98,7 @@ class GlanzSceneSettings(bpy.types.PropertyGroup):
         name="Min Contribution",
         description=(
             "Whitted's and distributed ray tracing: what a ray must count at least in its pixel to be followed, from 0 to 1. "
-            "0 follows all up to the greatest depth; 0.01 is faster and loses at most a hundredth of the light at each mirror or glass"
+            "0 follows all up to the greatest depth; 0.01 takes less time and loses at most a hundredth of the light at each mirror or glass"
         ),
         default=0.0,
         min=0.0,
@@ -109,13 +109,13 @@ class GlanzSceneSettings(bpy.types.PropertyGroup):
         name="Light Falloff",
         description=(
             "Phong illumination: light falls off with the square of the distance, as in nature. "
-            "Off: every light is as bright everywhere as it is at a distance of one metre"
+            "Off: every light is as bright everywhere as it is at a distance of one metre. Costs no time"
         ),
         default=True,
     )
     seed: IntProperty(
         name="Seed",
-        description="Another number gives other noise of the same amount; the same number gives the same picture",
+        description="Another number gives other noise of the same amount in the same time; the same number gives the same picture",
         default=0,
     )
     sampler: EnumProperty(
@@ -132,7 +132,7 @@ class GlanzSceneSettings(bpy.types.PropertyGroup):
     )
     filter_width: FloatProperty(
         name="Filter Width",
-        description="Full width of the pixel filter, in pixels: wider is softer. The box filter is always one pixel wide",
+        description="Full width of the pixel filter, in pixels: wider is softer. The box filter is always one pixel wide. Costs no time",
         default=1.5,
         min=0.01,
         soft_max=4.0,
@@ -143,6 +143,7 @@ class GlanzSceneSettings(bpy.types.PropertyGroup):
         name="Filter Textures",
         description=(
             "Textures are averaged over the part of the picture that a ray stands for, so that fine patterns do not alias. "
+            "It takes twice the time or more where there is hardly anything but textures, else little more. "
             "Off: they are looked up at points, as the lecture's zone plate is; only more samples or a wider pixel filter help then"
         ),
         default=True,
@@ -210,7 +211,7 @@ class GlanzSceneSettings(bpy.types.PropertyGroup):
         name="Strict",
         description=(
             "What Glanz would leave out, and images, node groups and libraries that are missing, are errors before rendering, "
-            "all in one list. Off: they are warnings, as is always what is rendered approximately"
+            "all in one list. Off: they are warnings, as is always what is rendered approximately. Costs no time"
         ),
         default=False,
     )
@@ -245,7 +246,7 @@ class GlanzSceneSettings(bpy.types.PropertyGroup):
         name="Deformation Steps",
         description=(
             "Shapes that a mesh which deforms takes while the shutter is open; what only moves is blurred without steps. "
-            "More are smoother, and each takes the memory of the mesh once more"
+            "More are smoother, and each takes the memory of the mesh, and the time to prepare it, once more"
         ),
         default=8,
         min=1,
@@ -269,13 +270,13 @@ class GlanzViewLayerSettings(bpy.types.PropertyGroup):
         name="Confidence",
         description=(
             "Deliver half the width of the interval around each pixel that holds the truth in 95 of 100 cases, in its radiance. "
-            "Costs what Standard Error costs; both together cost it once"
+            "Takes the time that Standard Error takes; both together take it once"
         ),
         default=False,
     )
     use_pass_sample_count: BoolProperty(
         name="Sample Count",
-        description="Deliver how many samples each pixel took; it differs between pixels with an adaptive threshold only",
+        description="Deliver how many samples each pixel took; it differs between pixels with an adaptive threshold only. Costs no time",
         default=False,
     )
 

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import bpy
 import pytest
 
-from glanz.addon import builtin_panels, light_panels, panels, pass_panels, passes, requirements_panel
+from glanz.addon import builtin_panels, light_panels, panels, pass_panels, passes, properties, requirements_panel
 from glanz.tests.addon import blender
 
 OWN = {panel.__name__: panel for module in (panels, light_panels, pass_panels, requirements_panel) for panel in module._CLASSES}
@@ -196,13 +196,37 @@ def test_the_lectures_parameters_can_be_edited():
     assert header.layout.drawn == ["use_lecture"]
 
 
+def _tooltips(settings):
+    """{name: (property, its tooltip, those of its choices among it)} of the settings of Glanz."""
+    own = ((name, prop) for name, prop in settings.bl_rna.properties.items() if name not in ("rna_type", "name"))
+    items = {"integrator": "INTEGRATORS", "sampler": "SAMPLERS", "pixel_filter": "FILTERS"}
+    found = {}
+    for name, prop in own:
+        choices = [item[2] for item in properties.enum_items(items[name])] if name in items else []
+        choices += [item.description for item in getattr(prop, "enum_items", ())]
+        found[name] = prop, " ".join((prop.description, *choices))
+    return found
+
+
+UNITS = ("unit", "metre", "white", "pixel", "bounces", "from 0 to 1", "is 1 %", "seconds", "parts", "rays that", "shapes that", "sets that")
+NUMBERS_OF_NO_UNIT = {"seed", "priority", "max_transparent"}
+
+
 def test_tooltips_say_what_a_number_does_and_its_unit():
-    for owner in (bpy.data.materials.new("M"), bpy.data.lights.new("L", "SPOT")):
-        for name, prop in owner.glanz.bl_rna.properties.items():
-            if name not in ("rna_type", "name"):
-                assert len(prop.description) > 30, name
-                is_number = prop.type == "FLOAT"
-                assert not is_number or any(word in prop.description for word in ("unit", "metres", "white light")), name
+    """Counts say what they count."""
+    scene, layer = bpy.context.scene, bpy.context.view_layer
+    for owner in (bpy.data.materials.new("M"), bpy.data.lights.new("L", "SPOT"), scene, layer):
+        for name, (prop, tooltip) in _tooltips(owner.glanz).items():
+            assert len(prop.description) > 30, name
+            is_number = prop.type in ("FLOAT", "INT") and name not in NUMBERS_OF_NO_UNIT
+            assert not is_number or any(word in tooltip.lower() for word in UNITS), name
+
+
+def test_tooltips_of_scenes_say_what_a_setting_costs():
+    """In time or in memory, and be it nothing."""
+    for owner in (bpy.context.scene, bpy.context.view_layer):
+        for name, (_, tooltip) in _tooltips(owner.glanz).items():
+            assert any(word in tooltip.lower() for word in ("time", "memory")), name
 
 
 def test_what_is_inside_of_a_material_can_be_edited():

@@ -22,7 +22,7 @@ def main():
     yield 1.0
     ui.shot("dialog")
     ui.press("RETURN")
-    yield lambda: sys.modules.get(ui.package, before) is not before and ui.package in bpy.context.preferences.addons.keys(), 60
+    yield lambda: sys.modules.get(ui.package, before) is not before and ui.package in bpy.context.preferences.addons, 60
     yield 1.0
     assert bpy.context.scene.render.engine == "GLANZ"
     assert ((yield from picture()) == first).all()
