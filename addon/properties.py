@@ -98,7 +98,7 @@ class GlanzSceneSettings(bpy.types.PropertyGroup):
         name="Min Contribution",
         description=(
             "Whitted's and distributed ray tracing: what a ray must count at least in its pixel to be followed, from 0 to 1. "
-            "0 follows all up to the greatest depth; 0.01 takes less time and loses at most a hundredth of the light at each mirror or glass"
+            "0 follows all up to the greatest depth; 0.01 takes less time and loses at most a hundredth of the light at a mirror or glass"
         ),
         default=0.0,
         min=0.0,
