@@ -50,8 +50,8 @@ class GlanzCaptureEngine(bpy.types.RenderEngine):
         scene, _ = export_scene(depsgraph, settings, self._camera, frame_set=self.frame_set, findings=self.findings)
         if len(views) > 1:
             self.findings.note(f"only view '{views[0]}' is rendered, not: {', '.join(views[1:])}", "", IGNORED)
-        if depsgraph.scene_eval.glanz.strict if self.strict is None else self.strict:
-            self.findings.raise_if_lost(depsgraph.scene_eval.name)
+        self.findings.is_strict = depsgraph.scene_eval.glanz.strict if self.strict is None else self.strict
+        self.findings.refuse_lost(depsgraph.scene_eval.name)
         return scene, settings, self.findings.lines()
 
     def _camera(self):

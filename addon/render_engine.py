@@ -85,8 +85,8 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
         scenes, notes = export_views(depsgraph, settings, cameras, self._check, frame_set, findings, kept)
         requirements = Requirements.of(scenes[0], settings)
         self._keep(depsgraph, requirements, findings)
-        refuse_lost = partial(findings.raise_if_lost, depsgraph.scene_eval.name) if depsgraph.scene_eval.glanz.strict else lambda: None
-        refuse_lost()
+        findings.is_strict = depsgraph.scene_eval.glanz.strict
+        findings.refuse_lost(depsgraph.scene_eval.name)
         warnings.show(notes)
         stamp(self, metadata(scenes[0], settings, layer, requirements))
         self.update_stats("", "Preparing the scene")
@@ -104,7 +104,7 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
                     if step.warnings:
                         warnings.show(findings.take(step.warnings))
                         self._keep(depsgraph, requirements, findings)
-                        refuse_lost()
+                        findings.refuse_lost(depsgraph.scene_eval.name)
                     for tile in step.tiles:
                         write_tile(self, tile, settings.region, layer, view)
                     outlines.show(step.in_work)

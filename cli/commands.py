@@ -118,6 +118,8 @@ def _picture(shot, settings, terminal):
     with terminal.progress(title) as show:
 
         def on_progress(progress):
+            if shot.is_strict and (lost := [warning for warning in progress.warnings if warning.is_lost]):
+                raise SceneError(f"scene '{shot.scene.name}' is strict, and something is left out: " + "; ".join(lost))
             for warning in progress.warnings:
                 terminal.warn(warning)
             show(progress.done)

@@ -21,6 +21,7 @@ class Shot:
 
     notes    {field: value} for each thing that a .blend file's warnings are about
     by_kind  {"missing", "ignored" or "approximated": the warnings that are so}
+    is_strict  whether it is an error that something is left out, which may be found later
     """
 
     scene: object
@@ -29,6 +30,7 @@ class Shot:
     warnings: tuple = ()
     notes: tuple = ()
     by_kind: dict = field(default_factory=dict)
+    is_strict: bool = False
 
 
 def open_source(path, scene_name, before_blender, view_layer=None):
@@ -80,7 +82,8 @@ class _Blend:
         )
         notes = tuple(note.as_dict() for note in findings.notes)
         by_kind = {kind: findings.lines((kind,)) for kind in self._capture.KINDS}
-        return Shot(scene, settings, self._current_frame() if frame is None else frame, warnings, notes, by_kind)
+        frame = self._current_frame() if frame is None else frame
+        return Shot(scene, settings, frame, warnings, notes, by_kind, findings.is_strict)
 
     def save_png(self, image, path):
         """Write `image` through the scene's own view transform."""
@@ -102,20 +105,17 @@ class _SceneFile:
             raise SceneError(f"'{path}' has no scene '{scene_name}'; it holds: {self._scene.name}")
 
     def shot(self, frame=None, size=None, strict=None):
-        """The one `Shot`; `size` (width, height) replaces its resolution, and the longer side keeps its field of view.
-
-        Nothing is left out of what a scene file says: `strict` asks for nothing more.
-        """
+        """The one `Shot`; `size` (width, height) replaces its resolution, and the longer side keeps its field of view."""
         if frame is not None:
             raise SceneError(f"'{self._path}' is a scene file, which holds one frame without a number")
         if not size:
-            return Shot(self._scene, self._settings, None)
+            return Shot(self._scene, self._settings, None, is_strict=bool(strict))
         old = self._settings
         border = tuple(
             round(edge * new / whole) for edge, new, whole in zip(old.border, size * 2, (old.width, old.height) * 2, strict=False)
         )
         settings = dataclasses.replace(old, width=size[0], height=size[1], border=border)
-        return Shot(fitted(self._scene, (old.width, old.height), size), settings, None)
+        return Shot(fitted(self._scene, (old.width, old.height), size), settings, None, is_strict=bool(strict))
 
     def save_png(self, image, path):
         """Write `image` in plain sRGB."""

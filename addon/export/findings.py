@@ -51,10 +51,11 @@ class Note:
 
 
 class Findings:
-    """Notes grouped by what they say; each names who is concerned, once."""
+    """Notes grouped by what they say; each names who is concerned, once. `is_strict`: what is lost is an error."""
 
     def __init__(self):
         self._notes = {}
+        self.is_strict = False
 
     def note(self, what, owner, kind=APPROXIMATED, node=()):
         """Record a `Note` of these fields."""
@@ -75,9 +76,9 @@ class Findings:
         """One warning for each thing that happened, with the first few names and the count of the others."""
         return grouped(note for note in self._notes if note.kind in kinds)
 
-    def raise_if_lost(self, scene_name):
-        """Raises SceneError with all that is missing or ignored, if anything is."""
-        if lines := self.lines(LOST):
+    def refuse_lost(self, scene_name):
+        """Raises SceneError with all that is missing or ignored, where that is an error."""
+        if self.is_strict and (lines := self.lines(LOST)):
             raise SceneError(
                 f"scene '{scene_name}' is strict, and Glanz does not render all of it:\n"
                 + ";\n".join(lines)

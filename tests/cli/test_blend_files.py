@@ -36,6 +36,12 @@ for name in ("Smoky", "Strict"):
     smoky.camera = scene.camera
     for ob in (scene.camera, smoke):
         smoky.collection.objects.link(ob)
+torn = bpy.data.scenes.new("Torn")
+torn.glanz.strict, torn.camera = True, scene.camera
+mesh = bpy.data.meshes.new("Torn")
+mesh.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, float("nan"))], [], [(0, 1, 2)])
+torn.collection.objects.link(scene.camera)
+torn.collection.objects.link(bpy.data.objects.new("Torn", mesh))
 bpy.ops.wm.save_as_mainfile(filepath=os.path.abspath("scene.blend"))
 sys.stdout.flush()
 os._exit(0)
@@ -150,6 +156,15 @@ def test_info_tells_by_kind_what_is_not_as_in_blender(glanz):
     assert note == {"what": "volumes are not rendered", "kind": "ignored", "datablock": "object", "name": "Smoke", "node": []}
     assert content["counts"]["warnings"] == len(content["warnings"]) == 1
     assert "ignored:\n  volumes are not rendered: object 'Smoke'\n" in glanz("info scene.blend --scene Strict").stdout
+
+
+def test_what_the_engine_leaves_out_of_a_strict_scene_is_an_error(folder, glanz):
+    result = glanz("render scene.blend --scene Torn -o torn.exr --quiet", status=1)
+    assert result.stderr.startswith("glanz: error: scene 'Torn' is strict")
+    assert "are left out: object 'Torn'" in result.stderr and result.stderr.count("\n") == 1
+    assert not (folder / "torn.exr").exists()
+    content = json.loads(glanz("info scene.blend --scene Torn --json").stdout)
+    assert [(note["kind"], note["datablock"], note["name"]) for note in content["notes"]] == [("ignored", "object", "Torn")]
 
 
 @pytest.mark.parametrize(

@@ -137,6 +137,9 @@ def test_a_warning_is_said_once_on_stderr(scene_file, capsys):
     out, err = capsys.readouterr()
     assert (out, err.count("\n")) == ("", 1)
     assert err == "glanz: warning: the transform is not finite, so it is left out: object 'lost'\n"
+    assert main(["render", "warns.glanz", "--quiet", "--strict", "-o", "strict.exr"]) == 1
+    assert "glanz: error: scene 'Scene' is strict" in capsys.readouterr().err
+    assert not os.path.exists("strict.exr")
     assert main(["info", "warns.glanz", "--json"]) == 0
     content = json.loads(capsys.readouterr().out)
     what = "the transform is not finite, so it is left out"

@@ -37,14 +37,17 @@ def test_equal_notes_become_one_line_with_names_and_a_count():
 
 def test_a_strict_scene_refuses_what_is_lost_and_lets_pass_what_is_approximated():
     findings = Findings()
+    findings.is_strict = True
     findings.note("sheen is diffuse", "material 'Silk'", APPROXIMATED)
-    findings.raise_if_lost("Shop")
+    findings.refuse_lost("Shop")
     findings.note("hair is not rendered", "object 'Fox'", IGNORED)
     findings.note("the image is missing", "material 'Wall'", MISSING, ("Group", "Image"))
     with pytest.raises(SceneError, match="scene 'Shop' is strict") as raised:
-        findings.raise_if_lost("Shop")
+        findings.refuse_lost("Shop")
     assert "object 'Fox'" in str(raised.value) and "node 'Image' in 'Group' of material 'Wall'" in str(raised.value)
     assert "Silk" not in str(raised.value)
+    findings.is_strict = False
+    findings.refuse_lost("Shop")
     assert len(findings.lines(LOST)) == 2 and len(findings.lines()) == 3
 
 
