@@ -126,6 +126,8 @@ def measure(name, effort, facts):
             for engine, sampler in MITSUBA.items():
                 cold = mitsuba.render(sampler=sampler, samples=effort.samples[-1], side=effort.side)
                 results[engine] = {"cold": cold, "memory": mitsuba.memory(), **load}
+                # There is a kernel for each number of samples, too.
+                mitsuba.render(sampler=sampler, samples=effort.samples[0], side=effort.side)
             return results | _compare(name, workers, dict.fromkeys(MITSUBA, mitsuba), results, effort)
 
 

@@ -11,7 +11,7 @@ import OpenEXR
 
 from glanz.addon import results
 from glanz.addon.capture import capture
-from glanz.engine import prepare, render_image, render_plan, write_scene
+from glanz.engine import prepare, render_image, render_plan, rendering, write_scene
 
 from ..blender import press_f12, quiet
 from ..embree_time import timed
@@ -31,35 +31,42 @@ class Blender:
         self.built = time.perf_counter() - start
         self.marks = {}
         bpy.app.handlers.render_stats.append(self._on_status)
-        self._watch_tiles()
+        # The plan is compiled and the tree is built before.
+        rendering.render_plan = self._marking(rendering.render_plan, "began")
+        results.write_tile = self._marking(results.write_tile, "pixel")
 
     def _on_status(self, text, *_):
-        # Both engines say how many samples are done once they render.
-        if "amples" in text or "Sample" in text:
-            self.marks.setdefault("began", time.perf_counter())
-            if self.engine == "CYCLES" and "Sample 0/" not in text:
-                self.marks.setdefault("pixel", time.perf_counter())
+        # Cycles says how many samples are done, none at first, once everything is built.
+        if self.engine == "CYCLES" and "Sample " in text:
+            self._mark("began")
+            if "Sample 0/" not in text:
+                self._mark("pixel")
 
-    def _watch_tiles(self):
-        write_tile = results.write_tile
+    def _mark(self, key):
+        self.marks.setdefault(key, time.perf_counter())
+        self.marks.setdefault(f"{key} cpu", time.process_time())
 
-        def watched(*args, **options):
-            write_tile(*args, **options)
-            self.marks.setdefault("pixel", time.perf_counter())
+    def _marking(self, function, key):
+        """`function`, which marks `key` once it is done."""
 
-        results.write_tile = watched
+        def marking(*args, **options):
+            result = function(*args, **options)
+            self._mark(key)
+            return result
+
+        return marking
 
     def f12(self, samples, side, seed=0, **options):
-        """Seconds of a render: "wall" and "cpu" of all; of the wall time until it begins to trace, "load", and the rest, "alone"; and
-        from the start to the first pixels, "first_pixel".
+        """Seconds of a render: "wall" of all, of which "load" until it begins to trace and "alone" the rest; "cpu" and "cpu_alone" of all
+        processors; "first_pixel" from the start to the first pixels.
         """
         scenes.set_frame(self.scene, samples, side, seed)
         self.marks.clear()
-        start = time.perf_counter()
+        start, start_cpu = time.perf_counter(), time.process_time()
         wall, cpu = press_f12(self.engine, **options)
-        load = self.marks.get("began", start) - start
-        pixel = self.marks.get("pixel", start + wall) - start
-        return {"wall": wall, "cpu": cpu, "load": load, "alone": wall - load, "first_pixel": pixel}
+        load, pixel = (self.marks[key] - start for key in ("began", "pixel"))
+        cpu_alone = cpu - (self.marks["began cpu"] - start_cpu)
+        return {"wall": wall, "load": load, "alone": wall - load, "cpu": cpu, "cpu_alone": cpu_alone, "first_pixel": pixel}
 
     def first_pixel(self, width=1920, height=1080, samples=64):
         """Seconds to the first pixels of a warm F12; then the process ends, whatever is left to render."""

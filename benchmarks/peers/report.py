@@ -21,8 +21,8 @@ BUSY = 0.85
 
 
 def seconds(times, kind):
-    """One time of a render: "wall", of all; "alone", of tracing; "cpu", of all processors. Mitsuba's are of tracing anyway."""
-    return times["cpu"] if kind == "cpu" else times.get(kind, times["wall"])
+    """One time of a render: "wall", of all; "alone", of tracing; "cpu", "cpu_alone" of all processors. Mitsuba's are of tracing anyway."""
+    return times.get(kind, times["cpu" if kind.startswith("cpu") else "wall"])
 
 
 def at_equal_samples(scene, engine, kind):
@@ -199,9 +199,9 @@ def _kinds(engine):
 
 
 def _with_cpu(ratio, scene, engine, kind):
-    """The ratio of wall times, and in brackets that of processor time where it says something of its own."""
-    wall = ratio(scene, engine, "wall" if kind == "F12" else kind)
-    return f"{wall:.2f} ({ratio(scene, engine, 'cpu'):.2f})" if kind == "F12" or engine != "cycles" else f"{wall:.2f}"
+    """The ratio of wall times, and in brackets that of processor time."""
+    wall, cpu = ("wall", "cpu") if kind == "F12" else ("alone", "cpu_alone")
+    return f"{ratio(scene, engine, wall):.2f} ({ratio(scene, engine, cpu):.2f})"
 
 
 def _equal_samples(scenes, peers, most):
