@@ -37,14 +37,23 @@ class Persistent:
             # Far from where the first camera was, single precision asks for a render space of its own.
             plan = plan if plan.is_exact() else prepare(scene, settings)[0]
         else:
-            # Not two at once in memory.
+            # Not two at once in memory, unless Embree's tree can stay.
             self._known.pop(key, None)
-            plan = None
+            plan = plan if plan and _has_same_tree(plan, before, scene) else None
             yield Progress(0.0)
-            plan, told = prepare(scene, settings)
+            plan, told = prepare(scene, settings, before=plan)
             yield Progress(0.0, warnings=told)
         self._known[key] = plan, told, scene
         yield from render_plan(plan, ends)
+
+
+def _has_same_tree(plan, before, scene):
+    """Whether `scene` has the shapes and places of the scene `before`, of the `plan`, also as seen from its camera."""
+    return np.array_equal(plan.world.frame.origin, scene.camera.position) and is_same(_shapes(before), _shapes(scene))
+
+
+def _shapes(scene):
+    return [(o.mesh, o.world_from_object, o.motion) for o in scene.objects]
 
 
 def _film_aside(settings):

@@ -9,6 +9,8 @@ import pytest
 from glanz.addon import persistent
 from glanz.addon.persistent import is_same
 from glanz.engine import plan as plans
+from glanz.engine.world import compile
+from glanz.engine.world.accel import Accel
 from glanz.tests.addon import blender
 from glanz.tests.addon.export.test_images import sequence
 
@@ -91,25 +93,38 @@ FREE = {
     "the seed": lambda plane: _setting("seed", 0, 5),
 }
 """Changes that need no new plan."""
-CHANGES = FREE | {
+OF_LOOKS = {
+    "a material": _material,
+    "the world": _world,
+    "the bounces": lambda plane: _setting("max_depth", 0, 3),
+}
+"""Changes that leave Embree's tree as it is."""
+OF_SHAPES = {
     "the camera, by far": _close_up,
     "a place": lambda plane: _animate(plane, "location", (0, 0, 0), (0.5, 0, 0)),
     "a shape": _shape,
-    "a material": _material,
-    "the world": _world,
     "what is rendered": lambda plane: _animate(plane, "hide_render", False, True),
-    "the bounces": lambda plane: _setting("max_depth", 0, 3),
 }
+CHANGES = FREE | OF_LOOKS | OF_SHAPES
+
+
+@pytest.fixture
+def trees(monkeypatch):
+    """The list of what Embree made trees of."""
+    done = []
+    monkeypatch.setattr(compile, "Accel", lambda *args: done.append(args) or Accel(*args))
+    return done
 
 
 @pytest.mark.parametrize("change", CHANGES)
-def test_frames_are_those_without_persistent_data(change, compiled, tmp_path):
+def test_frames_are_those_without_persistent_data(change, compiled, trees, tmp_path):
     """To the bit, but for a camera that moves: there positions are rounded otherwise."""
     plane = blender.add_plane()
     blender.add_tetrahedron()
     CHANGES[change](plane)
     kept = _frames(tmp_path)
     assert len(compiled) == (1 if change in FREE else 2)
+    assert len(trees) == (2 if change in OF_SHAPES else 1)
     bpy.context.scene.render.use_persistent_data = False
     fresh = _frames(tmp_path)
     assert len(compiled) == (3 if change in FREE else 4)
