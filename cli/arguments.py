@@ -19,6 +19,7 @@ def parser(version):
     _add_render(commands)
     _add_info(commands)
     _add_export(commands)
+    _add_bench(commands)
     return top
 
 
@@ -100,6 +101,45 @@ def _add_export(commands):
     _add_scene(command)
     _add_frame(command)
     _add_strict(command)
+
+
+def _add_bench(commands):
+    command = commands.add_parser(
+        "bench",
+        allow_abbrev=False,
+        help="what accuracy costs in a scene: error against time, as a table and plots",
+        description=(
+            "Render a reference of FILE, and all combinations of what is given here, three times each; write curve.csv, curve.json, "
+            "curve.png and curve.svg. Errors are told apart into noise and bias."
+        ),
+    )
+    _add_file(command)
+    command.add_argument("-o", "--output", default="glanz_bench", metavar="FOLDER", help="where to write; glanz_bench if not given")
+    _add_scene(command)
+    _add_frame(command)
+    told = "size of the frame in pixels; 256 along its longer side if not given"
+    command.add_argument("--resolution", type=resolution, metavar="WxH", help=told)
+    for name, kind, text in (
+        ("integrators", str, "path and the file's if not given"),
+        ("samplers", str, "the file's, sobol and random if not given"),
+        ("depths", int, "bounces; the file's if not given"),
+    ):
+        command.add_argument(f"--{name}", type=list_of(kind), default=(), metavar="A,B", help=text)
+    told = "paths per pixel; 1,4,16,64 if not given"
+    command.add_argument("--samples", type=list_of(int), default=(1, 4, 16, 64), metavar="A,B", help=told)
+    command.add_argument("--quiet", action="store_true", help="print results, warnings and errors only")
+
+
+def list_of(kind):
+    """A parser of words or numbers of one `kind` with commas between them, as a tuple without repetitions."""
+
+    def parsed(text):
+        try:
+            return tuple(dict.fromkeys(kind(part) for part in text.split(",")))
+        except ValueError:
+            raise argparse.ArgumentTypeError(f"'{text}' is not a list of numbers, such as 1,4,16") from None
+
+    return parsed
 
 
 def _add_file(command):

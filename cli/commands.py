@@ -6,6 +6,7 @@ import json
 from ..addon.settings import border as border_in_pixels
 from ..engine import Requirements, SceneError, __version__, render_image, validate, write_exr, write_scene
 from ..engine.io.atomic import check_writable
+from . import curve, curve_files
 from .outputs import default_output, numbered
 from .sources import open_source
 
@@ -97,6 +98,39 @@ def export(arguments, terminal):
     with terminal.stopper.orderly():
         write_scene(arguments.output, shot.scene, shot.settings)
     terminal.wrote(arguments.output)
+
+
+def bench(arguments, terminal):
+    """Measure what accuracy costs in a scene, and write the curve."""
+    source = _source(arguments, terminal)
+    shot = source.shot(arguments.frame, arguments.resolution, strict=None)
+    if not arguments.resolution:
+        shot = source.shot(arguments.frame, curve.small(shot.settings.width, shot.settings.height), strict=None)
+    for warning in shot.warnings:
+        terminal.warn(warning)
+    settings = shot.settings
+    asked = {
+        "integrators": arguments.integrators or tuple(dict.fromkeys(("path", settings.integrator))),
+        "samplers": arguments.samplers or tuple(dict.fromkeys((settings.sampler, "sobol", "random"))),
+        "depths": arguments.depths or (settings.max_depth,),
+        "samples": arguments.samples,
+    }
+    with terminal.stopper.orderly(), terminal.progress(f"{shot.scene.name}: {settings.width}x{settings.height}") as show:
+
+        def on_progress(done):
+            show(done)
+            terminal.stopper.check()
+
+        rungs = curve.measure(shot.scene, settings, **asked, on_progress=on_progress)
+    facts = {"scene": shot.scene.name, "width": settings.width, "height": settings.height, "version": __version__} | asked
+    terminal.say("\n".join(curve_files.as_lines(rungs)))
+    if rungs[0].flip is None:
+        terminal.warn(f"FLIP is not measured without flip-evaluator; cure: {curve_files.CURE}")
+    paths, missing = curve_files.write(arguments.output, rungs, facts)
+    if missing:
+        terminal.warn(f"{' and '.join(missing)} are not drawn without matplotlib; cure: {curve_files.CURE}")
+    for path in paths:
+        terminal.wrote(path)
 
 
 def _source(arguments, terminal):
