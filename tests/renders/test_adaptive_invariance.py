@@ -92,12 +92,21 @@ def test_bits_catch_a_margin_that_is_too_narrow(margin, monkeypatch):
     assert not all(h.same_bits(*pair) for pair in pairs)
 
 
+REPLICATES = h.replaced(SETTINGS, replicates=2)
+"""Some passes ask for them; pictures are the same where all have as many."""
+
+
+@pytest.fixture(scope="module")
+def every_pass():
+    return passes_of(h.replaced(REPLICATES, passes=tuple(PASSES)))
+
+
 @pytest.mark.parametrize("key", PASSES)
-def test_a_pass_renders_alone_as_beside_others(key):
+def test_a_pass_renders_alone_as_beside_others(key, every_pass):
     """Colours decide, whether they are asked for or not."""
-    alone = passes_of(h.replaced(SETTINGS, passes=(key,)))
+    alone = passes_of(h.replaced(REPLICATES, passes=(key,)))
     assert list(alone) == [key]
-    assert h.same_bits(alone[key], passes_of(h.replaced(SETTINGS, passes=tuple(PASSES)))[key])
+    assert h.same_bits(alone[key], every_pass[key])
 
 
 def test_a_pass_of_the_first_sample_is_that_of_the_picture_without():
