@@ -130,7 +130,7 @@ def test_a_light_gives_as_much_as_in_cycles(kind, attributes, tmp_path):
     look_at_plane(attributes.get("scale", 1.0))
     add_light(kind, **attributes)
     # Where light changes within the size of the lamp, noise is greatest.
-    is_noisy = kind == "SPOT" or "spread" in attributes
+    is_noisy = (kind == "SPOT" and attributes.get("shadow_soft_size") != 0) or "spread" in attributes
     compare(tmp_path, NOISY_SAMPLES if is_noisy else SAMPLES)
 
 
@@ -194,6 +194,8 @@ def test_a_light_that_differs_in_one_attribute_is_noticed(kind, attributes, muta
     [
         ("POINT", POINTS["hard bulb"], SAMPLES),
         ("SPOT", SPOTS["hard bulb"], NOISY_SAMPLES),
+        ("SPOT", SPOTS["hard edge"], SAMPLES),
+        ("SPOT", SPOTS["narrow"], SAMPLES),
         ("SUN", SUNS["half sky"], SAMPLES),
         ("AREA", AREAS["stretched disk"], SAMPLES),
         ("AREA", AREAS["spread of 60 degrees"], NOISY_SAMPLES),
