@@ -1,6 +1,6 @@
 """Persistent data: what frames before were exported as and compiled to, for those that are the same but for their camera.
 
-Meshes and images are exported anew where Blender says that they have changed, or may have, see `export.kept`; all else is in each
+Meshes, images, materials and worlds are exported anew where they have changed, or may have, see `export.kept`; all else is in each
 frame, and all values are compared. So nothing that changes is overlooked, and what takes the time is done once.
 """
 

@@ -12,7 +12,7 @@ from glanz.addon import export, persistent
 from glanz.addon.export import Findings, Kept, bitmaps, images, kept as module, objects, scene, stamps
 from glanz.addon.persistent import is_same
 from glanz.tests.addon import blender
-from glanz.tests.addon.export.test_images import save, sequence
+from glanz.tests.addon.export.test_images import movie, save, sequence, tiled
 from glanz.tests.addon.more_changes import MoreChanges
 from glanz.tests.chance import SEED
 
@@ -271,6 +271,25 @@ def test_files_that_change_are_read_again(renders, tmp_path):
     renders.f12()
     one.reload()
     assert "one.png" in renders.f12()
+    assert renders.f12() == []
+    assert renders.wrong == 0
+
+
+@pytest.mark.parametrize("node_type", ["ShaderNodeTexImage", "ShaderNodeTexEnvironment"])
+def test_movies_and_tiles_are_read_where_they_are_others(node_type, renders, tmp_path):
+    _shown(movie(tmp_path), node_type).image_user.frame_duration = 4
+    _shown(tiled(tmp_path))
+    renders.f12()
+    # A movie has a colour space once it was looked at, which is another.
+    renders.f12()
+    assert renders.f12() == []
+    bpy.context.scene.frame_set(2)
+    assert renders.f12() == ["cut.avi"]
+    save(tmp_path / "skin.1002.png", 99)
+    os.utime(tmp_path / "skin.1002.png", ns=(1, 1))
+    (tiles,) = {image.name for image in bpy.data.images if image.source == "TILED"}
+    # Where an image has come and gone Blender says that some are others, and not which.
+    assert renders.f12() == ["cut.avi", tiles]
     assert renders.f12() == []
     assert renders.wrong == 0
 
