@@ -47,6 +47,9 @@ def settings_of(scene, view_layer, **overrides):
     values = {"width": width, "height": height, "threads": render.threads if render.threads_mode == "FIXED" else 0}
     values["film_transparent"] = render.film_transparent
     values |= {name: getattr(scene.glanz, name) for name in _OWN}
+    if values["adaptive_threshold"]:
+        # The panel greys them out.
+        values |= {"error_target": 0.0, "time_limit": 0.0}
     lost = [name for name in ("integrator", "sampler", "pixel_filter") if not values[name]]
     if lost and not set(lost) <= set(overrides):
         raise SceneError(f"scene '{scene.name}': this version of Glanz does not know its {', '.join(lost)}: choose anew")

@@ -62,3 +62,10 @@ def test_a_time_limit_ends_a_render(lit, tmp_path):
 def test_the_status_line_says_the_error_when_it_is_known():
     assert status.text(0.5, 64, 10.0, error=0.0213) == "50% of 64 samples, 0:10 left, error 2.1 %"
     assert "error" not in status.text(0.5, 64, 10.0)
+
+
+def test_what_is_greyed_out_counts_for_nothing(lit, tmp_path):
+    """Where pixels are divided the end is known; a preset may have switched that on."""
+    glanz = bpy.context.scene.glanz
+    glanz.samples, glanz.error_target, glanz.time_limit, glanz.adaptive_threshold = 4, 0.5, 60.0, 0.1
+    assert header_of(blender.render(tmp_path / "a.exr"))["ended_by"] == "samples"
