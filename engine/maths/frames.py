@@ -11,7 +11,8 @@ def to_world(n, local):
     """
     # Plus 0 makes -0 a 0, or the frame of a vertical surface would hang on its winding.
     sign = np.copysign(1, n[2] + 0).astype(n.dtype, copy=False)
-    h = np.array(np.broadcast_to(n, np.broadcast_shapes(n.shape, local.shape)))
+    h = np.empty(np.broadcast(n, local).shape, n.dtype)
+    h[...] = n
     h[2] += sign
     x, y, z = local[0], local[1], local[2] * sign
     h *= (h[0] * x + h[1] * y + h[2] * z) / (1 + np.abs(n[2]))

@@ -19,5 +19,7 @@ def look_up(table, u):
     """`table` at u in [0, 1), linear between its entries; the second moment is right to 1e-4."""
     place = u * _STEPS
     below = place.astype(np.int32)
-    fraction = place - np.floor(place)
-    return table[below] + fraction * (table[below + 1] - table[below])
+    place -= below.astype(place.dtype)
+    start = table.take(below)
+    below += 1
+    return start + place * (table.take(below) - start)

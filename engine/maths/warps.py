@@ -18,7 +18,10 @@ def square_to_disk(u2):
     """Uniform on the unit disk, (2, N): r = sqrt(u), phi = 2 pi v."""
     r = np.sqrt(u2[0])
     phi = _TWO_PI * u2[1]
-    return np.stack((r * np.cos(phi), r * np.sin(phi)))
+    disk = np.empty_like(u2)
+    np.multiply(r, np.cos(phi), out=disk[0])
+    np.multiply(r, np.sin(phi), out=disk[1])
+    return disk
 
 
 def square_to_disk_pdf():
@@ -28,8 +31,10 @@ def square_to_disk_pdf():
 
 def square_to_cosine_hemisphere(u2):
     """Directions with density cos / pi (Malley's method: the disk, lifted)."""
-    x, y = square_to_disk(u2)
-    return np.stack((x, y, np.sqrt(1 - u2[0])))
+    w = np.empty((3, *u2.shape[1:]), u2.dtype)
+    w[:2] = square_to_disk(u2)
+    np.sqrt(1 - u2[0], out=w[2])
+    return w
 
 
 def square_to_cosine_hemisphere_pdf(w):

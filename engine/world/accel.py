@@ -76,17 +76,18 @@ class Accel:
         limit, (N,) float32: what lies farther away is not met; rays that meet nothing keep it as their t (without: inf).
         """
         n = _check_rays(o, d)
-        t = np.full(n, np.inf, np.float32) if limit is None else _checked_limit(limit, n).copy()
-        hits = Hits(np.full(n, -1, np.int32), t, np.zeros(n, np.float32), np.zeros(n, np.float32))
+        limit = None if limit is None else _checked_limit(limit, n)
+        hits = None
         for lanes in () if self.is_empty else _safe_lanes(o, d, limit):
             # embreex may write into the limits: it gets its own.
             dists = np.inf if limit is None else limit[lanes].copy()
             found = self._scene.run(o[:, lanes].T, d[:, lanes].T, dists=dists, output=True)
             if n == found["primID"].size:
                 return Hits(found["primID"], found["tfar"], found["u"], found["v"])
+            hits = hits or _no_hits(n, limit)
             hits.prim[lanes], hits.t[lanes] = found["primID"], found["tfar"]
             hits.u[lanes], hits.v[lanes] = found["u"], found["v"]
-        return hits
+        return hits or _no_hits(n, limit)
 
     def occluded(self, o, d, limit):
         """Whether anything lies within `limit` (N,) float32 along each ray, (N,) bool."""
@@ -98,6 +99,12 @@ class Accel:
             found = self._scene.run(o[:, lanes].T, d[:, lanes].T, dists=limit[lanes].copy(), query="OCCLUDED")
             result[lanes] = found >= 0
         return result
+
+
+def _no_hits(n, limit):
+    """The `Hits` of n rays that meet nothing."""
+    t = np.full(n, np.inf, np.float32) if limit is None else limit.copy()
+    return Hits(np.full(n, -1, np.int32), t, np.zeros(n, np.float32), np.zeros(n, np.float32))
 
 
 def _check_rays(o, d):
@@ -120,14 +127,15 @@ def _checked_limit(limit, n):
 def _safe_lanes(o, d, limit=None):
     """Slices or index lists of at most RAYS_PER_CALL rays that Embree can be trusted with."""
     n = o.shape[1]
-    # One NaN or inf anywhere in a ray makes the sum of its coordinates not finite.
+    # One NaN or inf anywhere makes a sum not finite: that of all rays first, for there is hardly ever one.
     with np.errstate(over="ignore", invalid="ignore"):
-        finite = np.isfinite(o[0] + o[1] + o[2] + d[0] + d[1] + d[2])
+        is_safe = np.isfinite(np.add.reduce(o, axis=None) + np.add.reduce(d, axis=None))
+        if is_safe and (limit is None or np.minimum.reduce(limit, initial=0) >= 0):
+            return [slice(start, start + RAYS_PER_CALL) for start in range(0, n, RAYS_PER_CALL)]
+        safe = np.isfinite(o[0] + o[1] + o[2] + d[0] + d[1] + d[2])
     if limit is not None:
-        finite &= limit >= 0
-    if finite.all():
-        return [slice(start, start + RAYS_PER_CALL) for start in range(0, n, RAYS_PER_CALL)]
-    lanes = np.nonzero(finite)[0]
+        safe &= limit >= 0
+    lanes = np.nonzero(safe)[0]
     return [lanes[start : start + RAYS_PER_CALL] for start in range(0, lanes.size, RAYS_PER_CALL)]
 
 

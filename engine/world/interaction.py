@@ -88,8 +88,10 @@ def interact(triangles, shading_normals, d, hits):
     offset = np.abs(p).max(axis=0)
     offset += triangles.extent.take(prim)
     offset *= np.float32(START_ULPS * EPS32)
+    o = offset * n
+    o += p
     ns = shading_normals(triangles, prim, u, v, n, sign)
-    return Surface(p, wo, n, ns, p + offset * n, sign > 0, prim, triangles.material.take(prim), u, v, hits.t)
+    return Surface(p, wo, n, ns, o, sign > 0, prim, triangles.material.take(prim), u, v, hits.t)
 
 
 def leave_in_front(surface, wi):

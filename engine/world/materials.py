@@ -180,11 +180,15 @@ class Reflection:
 
     def eval(self, n, wo, wi):
         """f [sr^-1], (3, N), and pdf [sr^-1], (N,), of wi, by the rough lobes."""
+        if len(self.shares) == len(self.rough) == 1:
+            (only,) = self.rough
+            f, pdf = _eval_and_pdf(only.bsdf, only.k, n, wo, wi)
+            return self._on_its_side(only, f, n, wi), pdf
         f, pdf = 0, 0
         for lobe, share in zip(self.rough, self.shares):
             value, density = _eval_and_pdf(lobe.bsdf, lobe.k, n, wo, wi)
             f = f + self._on_its_side(lobe, value, n, wi)
-            pdf = pdf + (density if len(self.shares) == 1 else density * share)
+            pdf = pdf + density * share
         return f, pdf
 
     def illuminate(self, n, wo, wi):
