@@ -19,15 +19,12 @@ class Mitsuba:
     """The loaded scene; each method answers with numbers."""
 
     def __init__(self, variant, path, sides, threads):
+        import drjit
         import mitsuba as mi
 
         mi.set_variant(variant)
-        if variant.startswith("llvm"):
-            import drjit
-
-            drjit.set_thread_count(threads)
-        else:
-            mi.Thread.thread_count = threads
+        drjit.set_thread_count(threads)
+        # It asks for a variant at its import.
         from . import translate
 
         self._mi, self._translate, self._sides = mi, translate, tuple(sides)
