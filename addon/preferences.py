@@ -20,14 +20,14 @@ class GlanzPreferences(bpy.types.AddonPreferences):
             self.layout.label(text="Ready: choose Glanz in Render Properties > Render Engine", icon="CHECKMARK")
 
 
-def paragraph(layout, context, text):
-    """Write `text`, one that nobody should miss, over as many lines as the region needs: labels are cut off where it ends."""
+def paragraph(layout, context, text, icon="ERROR"):
+    """Write `text` over as many lines as the region needs: labels are cut off where it ends. An error is one that nobody should miss."""
     column = layout.column(align=True)
-    column.alert = True
+    column.alert = icon == "ERROR"
     # Letters are about 7 px wide; without a screen the scale is 0.
     letters = int(context.region.width / (7 * (context.preferences.system.ui_scale or 1)))
     for number, line in enumerate(textwrap.wrap(text, max(letters - 8, 20))):
-        column.label(text=line, icon="BLANK1" if number else "ERROR", translate=False)
+        column.label(text=line, icon="BLANK1" if number else icon, translate=False)
 
 
 register, unregister = bpy.utils.register_classes_factory((GlanzPreferences,))
