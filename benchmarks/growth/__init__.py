@@ -1,0 +1,1 @@
+"""How time and memory grow with pixels, samples, triangles, lights, textures and threads; `make bench-growth`."""
