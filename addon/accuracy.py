@@ -92,11 +92,12 @@ def _draw_outcome(layout, context, outcome):
     column.label(text=outcome.title, translate=False)
     if outcome.problem:
         paragraph(layout, context, outcome.problem)
-    for row in outcome.rows:
-        split = column.split(factor=0.55)
-        split.label(text=row.settings, translate=False)
-        split.label(text=f"{row.seconds:.2f} s", translate=False)
-        split.label(text=f"{100 * row.error:.2g} % {row.kind}", translate=False)
+    rows = [(row.settings, f"{row.seconds:.2f} s", f"{100 * row.error:.2f} %", row.kind) for row in outcome.rows]
+    for cells in (("Best settings", "Time", "Error", "Error is"), *rows) if rows else ():
+        split = column.split(factor=0.5)
+        split.label(text=cells[0], translate=False)
+        for cell in cells[1:]:
+            split.label(text=cell, translate=False)
     for warning in outcome.warnings:
         paragraph(layout, context, warning, "INFO")
     if outcome.rows:
