@@ -28,7 +28,7 @@ def _settings(**changes):
     defaults = {
         "integrator": "path",
         "max_depth": 8,
-        "sampler": "stratified",
+        "sampler": "sobol",
         "adaptive_threshold": 0.0,
         "adaptive_levels": 3,
         "branches": 16,

@@ -122,7 +122,7 @@ class GlanzSceneSettings(bpy.types.PropertyGroup):
         name="Sampler",
         description="How random numbers are spread: better spread is less noise in the same time",
         items=lambda self, context: enum_items("SAMPLERS"),
-        default=stored_number("stratified"),
+        default=stored_number("sobol"),
     )
     pixel_filter: EnumProperty(
         name="Pixel Filter",

@@ -41,7 +41,7 @@ def _add_render(commands):
     frames.add_argument("--frames", type=frame_range, metavar="A-B[:STEP]", help=told)
     for name, kind, text in (
         ("integrator", str, "how light is followed: path, distributed, whitted, whitted_phong, path_blind, path_naive"),
-        ("sampler", str, "random numbers: stratified, sobol, blue_noise, multijitter, random, grid"),
+        ("sampler", str, "random numbers: sobol, stratified, blue_noise, multijitter, random, grid"),
         ("samples", int, "paths per pixel"),
         ("max-depth", int, "bounces; 0 is direct light only"),
         ("max-transparent", int, "transparent surfaces that light passes between two bounces"),

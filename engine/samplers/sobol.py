@@ -21,7 +21,7 @@ _LONGEST_ROW = 4096
 
 @registry.add
 class Sobol:
-    """Owen-scrambled Sobol points: even at every scale, least noise with many samples; best with powers of two."""
+    """Owen-scrambled Sobol points: even at every scale, and least noise of all; best with powers of two; the default."""
 
     key = "sobol"
     label = "Sobol (Owen-scrambled)"

@@ -13,7 +13,7 @@ from . import registry
 
 @registry.add
 class Stratified:
-    """One random point in each cell of a grid: even in every pixel and dimension, whatever the number; the default."""
+    """One random point in each cell of a grid: even in every pixel and dimension, whatever the number."""
 
     key = "stratified"
     label = "Stratified"

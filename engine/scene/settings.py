@@ -62,7 +62,7 @@ class Settings:
     min_contribution: float = 0.0
     light_falloff: bool = True
     seed: int = 0
-    sampler: str = "stratified"
+    sampler: str = "sobol"
     pixel_filter: str = "blackman_harris"
     filter_width: float = 1.5
     adaptive_threshold: float = 0.0

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from glanz.engine import SAMPLERS, AreaLight
+from glanz.engine import SAMPLERS, AreaLight, Settings
 from glanz.engine.maths.hashing import mix
 from glanz.engine.samplers.random import Random
 from glanz.engine.samplers.stratified import Stratified
@@ -58,9 +58,10 @@ def test_four_times_the_samples_are_at_most_half_the_error(sampler):
         assert min(ratios) > 1.9
 
 
-def test_stratified_pictures_have_less_noise_than_random_ones():
+@pytest.mark.parametrize("sampler", ["stratified", Settings().sampler])
+def test_stratified_and_default_pictures_have_less_noise_than_random_ones(sampler):
     """At 64 samples less than half of it, for a smooth light."""
-    assert noise(64, "stratified") < 0.5 * noise(64, "random")
+    assert noise(64, sampler) < 0.5 * noise(64, "random")
 
 
 def single_samples(monkeypatch, scene, **changes):
