@@ -7,8 +7,9 @@ from ..errors import SceneError
 
 REPLICATES = 8
 """Where the error is asked for and nothing else: its own error is then a quarter in a pixel, and far less in a picture."""
-TOGETHER = 16
-"""Samples of a replicate at most, where a picture may end after any of them."""
+TOGETHER = 64
+"""Samples of a replicate at most, where a picture may end after any of them: fewer end it closer to its target, and are less even. Of
+256 Sobol samples of a soft shadow, replicates of 16, 32 and 64 have 2.1, 1.8 and 1.3 times the error of one of all."""
 OF_ERROR = ("Standard Error", "Confidence")
 """Passes that ask for the error."""
 
