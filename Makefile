@@ -38,7 +38,7 @@ help:
 	@echo "make desktop-test     try Glanz in a Blender with a window: BLENDER=/path/to/blender make desktop-test"
 	@echo "make test-thorough    draw many new examples for tests of laws, in an hour; GLANZ_SEED=... draws the same again"
 	@echo "make bench            measure speed against Cycles"
-	@echo "make bench-growth     measure how time and memory grow with pixels, triangles, lights, threads, ...; GROWTH=--quick in two minutes"
+	@echo "make bench-growth     measure how time and memory grow with pixels, triangles, lights, threads, ...; GROWTH=--quick in a minute"
 	@echo "make bench-peers      measure time and error against Cycles and Mitsuba, in half an hour; PEERS=--quick in five minutes"
 	@echo "make nodes            compare every node with Cycles for docs/nodes.md"
 	@echo "make closures         compare every shader with Cycles for docs/closures.md"

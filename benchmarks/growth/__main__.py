@@ -22,7 +22,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 def main(arguments=None):
     parser = argparse.ArgumentParser(prog="python -m benchmarks.growth", description=__doc__.splitlines()[0])
-    parser.add_argument("--quick", action="store_true", help="without the largest rungs, which take minutes and gigabytes")
+    parser.add_argument("--quick", action="store_true", help="without the largest rungs, which take most of the time and gigabytes")
     parser.add_argument("ladders", nargs="*", metavar="ladder", help=f"of: {' '.join(LADDERS)}; none: all")
     asked = parser.parse_args(arguments)
     if unknown := set(asked.ladders) - set(LADDERS):

@@ -79,7 +79,8 @@ def _threads(rungs, facts):
     lines += [
         "",
         "The GIL is held by Python between the calls to Embree and to NumPy's loops, which let go of it; py-spy looks from outside whether",
-        "some thread holds it. Larger batches hold it for a smaller share. "
+        "some thread holds it; ± is the standard error of its samples as if they were independent.",
+        "Larger batches hold it for less. "
         f"Here it is that of {settings.width} x {settings.height} pixels with {settings.samples} samples.",
         "",
         f"**A projection, not a measurement**, from up to {max(walls)} threads to {CORES[-1]} cores. By Amdahl's law all wait while one",
