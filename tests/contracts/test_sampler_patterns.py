@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from glanz.engine import SAMPLERS, AreaLight, Settings
+from glanz.engine import SAMPLERS, AreaLight
 from glanz.engine.maths import sobol as digits
 from glanz.engine.maths.hashing import mix
 from glanz.engine.maths.strata import grid
@@ -20,7 +20,7 @@ from glanz.tests import helpers as h
 def pixels(sampler, width, height=None, seed=0):
     """Keys (height * width,) of a picture, row by row."""
     py, px = np.divmod(np.arange(width * (height or width)), width)
-    return Numbers(sampler, 1).keys(px, py, Settings(width=width, height=height or width, seed=seed))
+    return Numbers(sampler, 1).keys(px, py, width, seed)
 
 
 def two(sampler, key, samples, dimension):
