@@ -180,6 +180,7 @@ def _ranked(rungs):
         slope = None
         if len(same) > 1:
             slope = float(np.polyfit(np.log([s.samples for s in same]), np.log([s.noise for s in same]), 1)[0])
-        is_best = not any(other.seconds <= rung.seconds and other.rmse < rung.rmse for other in rungs)
+        own = rung.seconds, rung.rmse
+        is_best = not any(o.seconds <= rung.seconds and o.rmse <= rung.rmse and (o.seconds, o.rmse) != own for o in rungs)
         result.append(replace(rung, slope=slope, is_best=is_best))
     return result

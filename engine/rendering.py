@@ -231,9 +231,9 @@ class _Work:
         is_known = all(sums is not None for sums in self.sums.values())
         # In the order of places, whichever thread was first.
         error = relative_error(sum(self.sums.values())) if is_known else math.inf
-        if self.is_cut:
-            return Reached(samples[0], error, "time")
-        return Reached(samples[1], error, "" if self.is_stopped() else self.ending.ended_by(samples[1], error))
+        if self.is_cut or self.is_stopped():
+            return Reached(samples[0], error, "time" if self.is_cut else "")
+        return Reached(samples[1], error, self.ending.ended_by(samples[1], error))
 
     def finish(self, tile, share):
         """The `share` of the work on a tile that is done, in [0, 1]."""

@@ -55,8 +55,8 @@ def test_few_bounces_are_a_bias_and_path_tracing_has_none():
 
 
 def test_the_front_has_what_nothing_beats():
-    rungs = [curve.Rung("path", "sobol", 1, n, s, 0, e, 0, None, e, 0) for n, s, e in ((1, 1.0, 0.5), (2, 2.0, 0.6), (4, 3.0, 0.2))]
-    assert [rung.is_best for rung in curve._ranked(rungs)] == [True, False, True]
+    rungs = [curve.Rung("path", "sobol", 1, n, s, 0, e, 0, None, e, 0) for n, s, e in ((1, 1, 0.5), (2, 2, 0.6), (3, 2, 0.5), (4, 3, 0.2))]
+    assert [rung.is_best for rung in curve._ranked(rungs)] == [True, False, False, True]
 
 
 def test_the_command_writes_tables_and_plots(tmp_path, capsys, monkeypatch):

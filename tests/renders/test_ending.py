@@ -1,12 +1,14 @@
 """What ends a render: all samples, an error or a time, and what it says of that."""
 
 import math
+import threading
 
 import numpy as np
 import pytest
 
 from glanz.engine import SceneError, ending, render, render_image
 from glanz.engine.ending import Ending
+from glanz.engine.rendering import render_plan
 from glanz.tests import helpers as h, scenes
 
 from .test_standard_error import lamp
@@ -86,6 +88,19 @@ def test_a_time_limit_ends_it_with_a_sample_of_every_pixel(monkeypatch, step):
     assert np.isfinite(image.passes["Combined"]).all()
 
 
+def test_what_is_cancelled_has_the_samples_that_every_pixel_has():
+    """Not those of the round that it was in."""
+    cancelled = threading.Event()
+    plan = h.plan_of(scenes.everything(), h.settings(**SMALL | {"samples": 64}))
+    steps = []
+    for step in render_plan(plan, (16,), cancelled):
+        steps.append(step)
+        if step.reached.samples == 16:
+            cancelled.set()
+    assert (steps[-1].reached.samples, steps[-1].reached.ended_by) == (16, "")
+    assert not any(tile.is_final for tile in steps[-1].tiles)
+
+
 def test_time_is_not_what_ends_a_picture_that_is_done(monkeypatch):
     monkeypatch.setattr(ending, "time", Clock(1e-6))
     image = render_image(scenes.everything(), h.settings(samples=4, time_limit=5.0))
@@ -93,11 +108,12 @@ def test_time_is_not_what_ends_a_picture_that_is_done(monkeypatch):
 
 
 def test_a_picture_that_time_has_cut_is_unbiased(monkeypatch):
-    """Where a row has more samples than the next both are means of their own."""
+    """Where a tile has more samples than the next both are means of their own: the time is over at the eighth tile of the second round."""
     scene, truth = lamp()
-    monkeypatch.setattr(ending, "time", Clock(0.05))
+    looks = iter(range(10**6))
+    monkeypatch.setattr(Ending, "is_late", lambda self: next(looks) > 8)
     settings = SMALL | {"samples": 2**20, "tile_size": 8, "passes": ("Combined", "Sample Count")}
-    image = render_image(scene, h.settings(**settings, time_limit=5.0))
+    image = render_image(scene, h.settings(**settings, time_limit=1e6))
     assert image.passes["Sample Count"].min() < image.passes["Sample Count"].max()
     assert h.mean_is(image.passes["Combined"][..., 0].reshape(-1).astype(float), truth[0], floor=1e-4)
 
