@@ -104,7 +104,7 @@ def test_the_file_says_how_each_layer_went(furnace, tmp_path, monkeypatch):
 def test_row_0_is_at_the_top_and_column_0_on_the_left(tmp_path):
     blender.add_camera()
     lamp = blender.new_material("Lamp", "ShaderNodeEmission", Color=(1, 1, 1, 1), Strength=1)
-    blender.add_plane(size=2, location=(-1.2, 1, 0)).data.materials.append(lamp)
+    blender.add_plane(size=2, location=(-1.2, 1.1, 0)).data.materials.append(lamp)
     pixels = blender.read_exr(blender.render(tmp_path / "a.exr"))["ViewLayer.Combined"][..., 0]
     assert pixels[:32, :32].sum() > 100
     assert pixels[32:].sum() == pixels[:, 40:].sum() == 0

@@ -14,7 +14,8 @@ TOLERANCE, OF_NOISY = 0.02, 0.12
 """Of block means, or of half of the brightest block where they are darker. Other seeds of Cycles differ by half as much."""
 NOISY = ("Diffuse Indirect", "Glossy Direct", "Glossy Indirect", "Transmission Indirect")
 """What mirrors and glass find by chance."""
-PASSES = tuple(key for key, row in passes.TABLE.items() if row.kind == "COLOR" and not key.startswith(("Denoising", "Ambient")))
+NOT_LIGHT = ("Denoising", "Ambient", "Shadow", "Standard", "Confidence")
+PASSES = tuple(key for key, row in passes.TABLE.items() if row.kind == "COLOR" and not key.startswith(NOT_LIGHT))
 
 
 def still_life():
