@@ -152,8 +152,8 @@ class GlanzSceneSettings(bpy.types.PropertyGroup):
         name="Error Target",
         description=(
             "Rendering ends where the standard error of the picture, relative to its mean brightness, is this small, with Samples at the "
-            "latest: 0.01 is 1 %. 0 is none. Half of it takes four times the time. The samples are in independent sets then, "
-            "64 in each at most, and at least two sets: soft shadows take up to twice the time for the same noise"
+            "latest: 0.01 is 1 %. 0 is none. Half of it takes four times the time. The samples are in about a dozen independent "
+            "sets then, which takes about a third more time for the same noise"
         ),
         default=0.0,
         min=0.0,

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .wavefront.replicates import layout
+
 MEASURED_BY = ("Combined", "Standard Error")
 """The passes that the error of a picture is taken from."""
 
@@ -59,7 +61,7 @@ class Ending:
         self._ends = ends
         self._target = settings.error_target
         self._limit = settings.time_limit
-        self._size = settings.replicate
+        self._replicates = layout(settings.replicate_sizes).ends
         self._started = time.monotonic()
 
     def is_late(self):
@@ -88,10 +90,14 @@ class Ending:
     def _for_error(self, samples, error):
         if not self._target:
             return
-        complete = (samples - self._begin) // self._size
-        # The variance falls as 1 / replicates. At the forecast number it is as likely as not too early still: no matter.
-        wanted = (self._needed(samples, error) - self._begin) / self._size if math.isfinite(error) else 2
-        yield self._begin + self._size * min(max(complete + 1, int(wanted), 2), max(2 * complete, 2))
+        # The end of a replicate: the second one at first, then the last before the error is forecast to be small enough, which is as
+        # likely as not a little too early, but not so far away that the forecast is not to be trusted.
+        ends = self._replicates[self._replicates > samples]
+        if not math.isfinite(error):
+            yield int(ends[min(1, ends.size - 1)])
+            return
+        wanted = min(self._needed(samples, error), self._begin + 2 * (samples - self._begin))
+        yield int(ends[max(np.searchsorted(ends, wanted, side="right") - 1, 0)])
 
     def _for_time(self, samples):
         if not self._limit:

@@ -7,6 +7,7 @@ import time
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 
@@ -168,7 +169,7 @@ def metadata(scene, settings, layer="", requirements=None):
         "glanz.sampler": settings.sampler,
         "glanz.samples": str(settings.samples),
         "glanz.sample_range": "{},{}".format(*settings.rendered_samples),
-        "glanz.replicates": str(-(-settings.samples // settings.replicate)),
+        "glanz.replicates": str(len(settings.replicate_sizes)),
         "glanz.error_target": f"{settings.error_target:g}",
         "glanz.time_limit": f"{settings.time_limit:g} s",
         "glanz.max_depth": str(settings.max_depth),
@@ -286,18 +287,19 @@ def _render_tile(plan, place, work, samples):
         return None
     tile = work.tiles.pop(place, None) or plan.tile(plan, place)
     begin, end = plan.settings.rendered_samples
-    weights = sample_weights(plan.filter, plan.settings.samples, plan.settings.replicate)
+    weights = sample_weights(plan.filter, plan.settings.replicate_sizes)
     shown = time.monotonic()
     for number, (film, pixels) in enumerate(tile.rounds()):
         paths = pixels.px.size * (samples[0] - begin)
-        for window, first, count in _batches(pixels.px.size, *samples):
+        for window, first, count in _batches(pixels.px.size, *samples, plan.replicates.edges):
             # Every pixel has a sample before the time is over.
             if samples[0] > begin and work.ending.is_late():
                 work.is_cut = True
                 break
             film.open(count, window, weights[first : first + count], first)
-            rays = camera_rays(plan, pixels.part(window), first, count)
-            if not trace(plan, rays, film, work.is_stopped):
+            spread = plan.at(first)
+            rays = camera_rays(spread, pixels.part(window), first, count)
+            if not trace(spread, rays, film, work.is_stopped):
                 return None
             film.close(is_first=first == begin)
             paths += rays.slot.size
@@ -323,11 +325,16 @@ def _tile(plan, place, values, is_final):
     return Tile(x, y, width, height, passes, is_final)
 
 
-def _batches(pixels, begin, end):
-    """(window of pixels, first sample, samples) of batches of at most LANES paths, samples begin .. end - 1 of a window in order."""
+def _batches(pixels, begin, end, edges):
+    """(window of pixels, first sample, samples) of batches of at most LANES paths, samples begin .. end - 1 of a window in order.
+
+    None goes on beyond the samples `edges`.
+    """
     at_once = min(pixels, LANES)
     count = max(1, LANES // at_once)
+    bounds = (begin, *(int(edge) for edge in edges if begin < edge < end), end)
     for start in range(0, pixels, at_once):
         window = slice(start, min(start + at_once, pixels))
-        for first in range(begin, end, count):
-            yield window, first, min(count, end - first)
+        for lower, upper in pairwise(bounds):
+            for first in range(lower, upper, count):
+                yield window, first, min(count, upper - first)

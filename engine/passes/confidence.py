@@ -23,4 +23,4 @@ class Confidence:
     def of(replicates):
         """(3, P), of the radiances of replicates."""
         # By Student's distribution, for the error is an estimate from few replicates itself.
-        return replicates.standard_error() * quantile_975(replicates.count - 1)
+        return replicates.standard_error() * quantile_975(replicates.freedom())

@@ -106,7 +106,7 @@ class AdaptiveTile:
         settings = plan.settings
         self._passes = plan.passes
         self._sampled = plan.passes if PASSES[_COLOURS] in plan.passes else (*plan.passes, PASSES[_COLOURS])
-        self._replicate = settings.replicate
+        self._replicates = settings.replicate_sizes
         self._threshold = settings.adaptive_threshold or math.inf
         self._levels = settings.adaptive_levels
         self._frame = settings.width, settings.height
@@ -149,7 +149,7 @@ class AdaptiveTile:
         return shown(self._passes, result)
 
     def _film(self, cells):
-        return Film(cells, self._sampled, self._replicate)
+        return Film(cells, self._sampled, self._replicates)
 
     def _to_divide(self, level, x, y):
         """Which of the cells x, y (P,) of a level differ from those around them, if they matter for the tile."""

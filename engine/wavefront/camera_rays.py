@@ -15,8 +15,7 @@ def camera_rays(plan, pixels, first, count):
     """
     settings = plan.settings
     px, py = pixels.px, pixels.py
-    numbers = np.arange(first, first + count)
-    replicate, sample = np.divmod(numbers, settings.replicate)
+    replicate, sample = plan.replicates.of(np.arange(first, first + count))
     seeds = [seed_of(settings.seed, r) for r in range(replicate[0], replicate[-1] + 1)]
     keys = np.stack([pixels.keys(plan.numbers, settings.width, seed) for seed in seeds])
     n = count * px.size
@@ -32,7 +31,7 @@ def camera_rays(plan, pixels, first, count):
     )
     for name, start in plan.carry:
         setattr(rays.carried, name, start(plan, rays))
-    negative = negative_samples(plan.filter, settings.samples, settings.replicate)[first : first + count]
+    negative = negative_samples(plan.filter, settings.replicate_sizes)[first : first + count]
     dx, dy = offsets(plan.filter, pixels.spread(plan.numbers.two(rays, Dimension.FILTER)), settings.filter_width, negative)
     # Measured from the middle of the frame, where half pixels are exact.
     x = np.tile((px + (0.5 - 0.5 * settings.width)).astype(np.float32), count) + dx

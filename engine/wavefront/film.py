@@ -19,12 +19,12 @@ class Film:
     recorded  {pass: (C, slots) float32} of those that record something along the way, see `interfaces.Pass`; of "ranks" a list of them
     """
 
-    def __init__(self, pixels, passes, replicate=1):
-        """For `pixels` (P,) whose samples are in replicates of so many."""
+    def __init__(self, pixels, passes, replicates=(1,)):
+        """For `pixels` (P,) whose samples are in `replicates` of such sizes."""
         self.passes = passes
         self._parts = tuple(p for p in passes if p.records in ("light", "first hit and light"))
         self._added = tuple(p for p in passes if p in self._parts or getattr(p, "covers", False))
-        self.sums = {p.key: _gathering(p, pixels, replicate) for p in passes}
+        self.sums = {p.key: _gathering(p, pixels, replicates) for p in passes}
         self.samples = np.zeros(pixels, np.int64)
         self._weight = np.zeros(pixels)
         self.bad_samples = 0
@@ -127,11 +127,11 @@ class Film:
         return shown(self.passes, self.pixels(is_whole))
 
 
-def _gathering(p, pixels, replicate):
+def _gathering(p, pixels, replicates):
     """What gathers a pass."""
     if p.reduction == "ranks":
         return Ranks(pixels)
-    return Replicates(_rows(p), pixels, replicate) if p.reduction == "replicates" else np.zeros((_rows(p), pixels))
+    return Replicates(_rows(p), pixels, replicates) if p.reduction == "replicates" else np.zeros((_rows(p), pixels))
 
 
 def _rows(p):

@@ -10,24 +10,19 @@ Mitchell's filter; they are left out then.
 import numpy as np
 
 
-def negative_samples(pixel_filter, samples, replicate):
-    """Whether each of `samples`, in replicates of so many, is drawn from the negative lobes, (samples,) bool; () for a filter without."""
+def negative_samples(pixel_filter, sizes):
+    """Whether each sample of replicates of such `sizes` is drawn from the negative lobes, (samples,) bool; () for a filter without."""
     mass = getattr(pixel_filter, "negative_mass", 0.0)
     if not mass:
         return np.zeros(0, bool)
-    return np.concatenate([_dealt(mass, size) for size in _sizes(samples, replicate)])
+    return np.concatenate([_dealt(mass, size) for size in sizes])
 
 
-def sample_weights(pixel_filter, samples, replicate):
-    """What each of `samples`, in replicates of so many, counts in its pixel, (samples,) float64 with mean 1; () where all count 1."""
-    if not np.count_nonzero(negative_samples(pixel_filter, samples, replicate)):
+def sample_weights(pixel_filter, sizes):
+    """What each sample of replicates of such `sizes` counts in its pixel, (samples,) float64 with mean 1; () where all count 1."""
+    if not np.count_nonzero(negative_samples(pixel_filter, sizes)):
         return np.zeros(0)
-    return np.concatenate([_weights(pixel_filter.negative_mass, size) for size in _sizes(samples, replicate)])
-
-
-def _sizes(samples, replicate):
-    whole, rest = divmod(samples, replicate)
-    return [replicate] * whole + [rest] * bool(rest)
+    return np.concatenate([_weights(pixel_filter.negative_mass, size) for size in sizes])
 
 
 def _dealt(mass, samples):

@@ -50,7 +50,7 @@ class EvenTile:
 
     def __init__(self, plan, place):
         self._pixels = Pixels(*rectangle(*place))
-        self._film = Film(self._pixels.px.size, plan.passes, plan.settings.replicate)
+        self._film = Film(self._pixels.px.size, plan.passes, plan.settings.replicate_sizes)
 
     def rounds(self):
         """All pixels in one round."""

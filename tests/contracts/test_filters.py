@@ -145,10 +145,10 @@ def check_signed_moments(plugin, samples=400):
     """Weighted moments of all samples of many pixels against integrals of the filter, which is negative in places."""
     # Fine in the number that chooses: lobe meets lobe in one of 900 cases.
     u = (np.indices((8192, 96)).reshape(2, -1) + 0.5) / np.array([[8192], [96]])
-    weights = signed_filter.sample_weights(plugin, samples, samples)
+    weights = signed_filter.sample_weights(plugin, (samples,))
     assert weights.min() < 0
     assert abs(weights.mean() - 1) <= 1e-12
-    negative = signed_filter.negative_samples(plugin, samples, samples)
+    negative = signed_filter.negative_samples(plugin, (samples,))
     assert ((weights < 0) == negative).all()
     mass = -weights[negative].sum() / samples
     points = np.concatenate((plugin.offset(u, 4.0), plugin.negative_offset(u, 4.0)), axis=1)
@@ -186,22 +186,23 @@ def test_the_signed_moments_catch_a_broken_filter(changes):
 
 def test_the_lobes_get_their_share_of_any_number_of_samples():
     for samples in (1, 2, 7, 8, 17, 64, 1000, 4096):
-        negative = signed_filter.negative_samples(Mitchell, samples, samples)
+        negative = signed_filter.negative_samples(Mitchell, (samples,))
         assert negative.size == samples
         assert abs(negative.sum() - samples * 0.0633) <= 0.51
         if samples > 100:  # spread evenly, so unfinished pictures are right too
             assert abs(negative[: samples // 4].sum() - negative.sum() / 4) <= 1
-    assert signed_filter.sample_weights(BlackmanHarris, 64, 64).size == 0
+    assert signed_filter.sample_weights(BlackmanHarris, (64,)).size == 0
 
 
 def test_the_lobes_get_their_share_of_every_replicate():
-    """Also of a last one that is not whole, and where there are too few samples for lobes."""
-    for samples, replicate in ((64, 16), (100, 16), (9, 4), (33, 32)):
-        weights = signed_filter.sample_weights(Mitchell, samples, replicate)
-        for start in range(0, samples, replicate) if weights.size else ():
-            assert weights[start : start + replicate].mean() == pytest.approx(1, abs=1e-12)
-            part = weights[start : start + replicate].size
-            assert abs((weights[start : start + replicate] < 0).sum() - part * 0.0633) <= 0.51
+    """Also of a last one that is not whole, of larger ones, and where there are too few samples for lobes."""
+    for sizes in ((16,) * 4, (16,) * 6 + (4,), (4, 4, 1), (32, 1), (16, 16, 64, 64)):
+        weights, negative = signed_filter.sample_weights(Mitchell, sizes), signed_filter.negative_samples(Mitchell, sizes)
+        assert negative.size == sum(sizes)
+        parts = zip(sizes, np.split(weights, np.cumsum(sizes)[:-1]), strict=True) if weights.size else ()
+        for size, part in parts:
+            assert part.mean() == pytest.approx(1, abs=1e-12)
+            assert abs((part < 0).sum() - size * 0.0633) <= 0.51
 
 
 @pytest.mark.parametrize("samples", [1, 7, 8, 100])
@@ -229,9 +230,9 @@ def test_unfinished_pictures_are_as_bright_as_finished_ones():
 
 
 def test_of_samples_that_begin_with_a_negative_one_nothing_is_divided_by_next_to_nothing():
-    replicate = h.settings(samples=64).replicate
-    first = int(np.argmax(signed_filter.negative_samples(Mitchell, 64, replicate)))
-    weights = signed_filter.sample_weights(Mitchell, 64, replicate)[first : first + 4]
+    sizes = h.settings(samples=64).replicate_sizes
+    first = int(np.argmax(signed_filter.negative_samples(Mitchell, sizes)))
+    weights = signed_filter.sample_weights(Mitchell, sizes)[first : first + 4]
     assert abs(weights[:2].sum()) < 0.2
     pictures = unfinished(sample_range=(first, first + 4))
     for picture, mean in zip(pictures[:2], np.cumsum(weights)[:2] / (1, 2), strict=True):
