@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .wavefront.replicates import layout
+from .wavefront.numbers import layout
 
 MEASURED_BY = ("Combined", "Standard Error")
 """The passes that the error of a picture is taken from."""

@@ -57,10 +57,9 @@ from .wavefront.motion import (
     start_time,
     to_the_end_of_moving_range,
 )
-from .wavefront.numbers import Numbers, one_of_the_lobes, only_lobe
+from .wavefront.numbers import Layout, Numbers, layout, one_of_the_lobes, only_lobe
 from .wavefront.passing import record_beyond, travel_through, unblocked_through
 from .wavefront.relief import bend_normals
-from .wavefront.replicates import Layout, layout
 from .wavefront.sights import closest_in_sight, closest_to_shadows, lit_by, lit_lobes, occluded_to_shadows, stay_of_kind
 from .wavefront.splitting import not_split, split_by_lobes, split_light
 from .wavefront.texturing import fill_in_textures
@@ -79,7 +78,7 @@ class Plan:
 
     place              where the camera is in render space, (3,): mostly in its middle
     replicates         which samples are spread together
-    numbers            the random numbers of those of the first size, see `at`
+    numbers            the random numbers of those of the first size, see `numbers.spread_at`
     carry              what paths carry along: (name, first column (plan, rays)) of each
     aim                origins and directions (plan, rays, x, y) of camera rays
     camera_poses       where the camera is over the time that the shutter is open, see `world.poses`; None: it stands still
@@ -331,11 +330,6 @@ class Plan:
             if can_reflect
             else 0,
         )
-
-    def at(self, sample):
-        """The plan for batches that begin with `sample`, whose random numbers are spread over a replicate of its size."""
-        size = self.replicates.size_at(sample)
-        return self if size == self.numbers.samples else replace(self, numbers=replace(self.numbers, samples=size))
 
     def seen_from(self, camera, settings):
         """The plan for another `camera`, or settings that differ in what concerns the film alone: nothing is compiled again.

@@ -20,6 +20,7 @@ from .requirements import Requirements
 from .scene.validate import validate
 from .wavefront.camera_rays import camera_rays
 from .wavefront.loop import trace
+from .wavefront.numbers import spread_at
 from .wavefront.signed_filter import sample_weights
 
 LANES = 2**16
@@ -297,7 +298,7 @@ def _render_tile(plan, place, work, samples):
                 work.is_cut = True
                 break
             film.open(count, window, weights[first : first + count], first)
-            spread = plan.at(first)
+            spread = spread_at(plan, first)
             rays = camera_rays(spread, pixels.part(window), first, count)
             if not trace(spread, rays, film, work.is_stopped):
                 return None

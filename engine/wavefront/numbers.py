@@ -1,7 +1,8 @@
 """Which random number is used for what: dimensions have names, so that one feature does not reshuffle the others."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import IntEnum
+from functools import lru_cache
 
 import numpy as np
 
@@ -77,3 +78,35 @@ def only_lobe(plan, rays):
 def one_of_the_lobes(plan, rays):
     """The number u1 (N,) that chooses a lobe of each surface."""
     return plan.numbers.one(rays, Dimension.LOBE)
+
+
+def spread_at(plan, sample):
+    """The `plan` for batches that begin with `sample`: its random numbers are spread over a replicate of that size."""
+    size = plan.replicates.size_at(sample)
+    return plan if size == plan.numbers.samples else replace(plan, numbers=replace(plan.numbers, samples=size))
+
+
+class Layout:
+    """Which samples of a pixel are in which replicate, of such `sizes`, one after the other."""
+
+    def __init__(self, sizes):
+        self.sizes = np.array(sizes)
+        self.ends = np.cumsum(self.sizes)
+        self._starts = self.ends - self.sizes
+        self.edges = self.ends[:-1][self.sizes[1:] != self.sizes[:-1]]
+        """Samples with which replicates of another size begin."""
+
+    def of(self, samples):
+        """(numbers of the replicates, numbers within them) of `samples` (S,)."""
+        replicate = np.searchsorted(self.ends, samples, side="right")
+        return replicate, samples - self._starts.take(replicate)
+
+    def size_at(self, sample):
+        """Samples of the replicate that `sample` is in."""
+        return int(self.sizes[np.searchsorted(self.ends, sample, side="right")])
+
+
+@lru_cache(maxsize=64)
+def layout(sizes):
+    """The `Layout` of a tuple of sizes."""
+    return Layout(sizes)

@@ -7,35 +7,9 @@ Quadrature", SIAM J. Numer. Anal. 34(5), section 2; Cranley and Patterson 1976).
 complement each other, so they had better be large.
 """
 
-from functools import lru_cache
-
 import numpy as np
 
-
-class Layout:
-    """Which samples of a pixel are in which replicate, of such `sizes`, one after the other."""
-
-    def __init__(self, sizes):
-        self.sizes = np.array(sizes)
-        self.ends = np.cumsum(self.sizes)
-        self._starts = self.ends - self.sizes
-        self.edges = self.ends[:-1][self.sizes[1:] != self.sizes[:-1]]
-        """Samples with which replicates of another size begin."""
-
-    def of(self, samples):
-        """(numbers of the replicates, numbers within them) of `samples` (S,)."""
-        replicate = np.searchsorted(self.ends, samples, side="right")
-        return replicate, samples - self._starts.take(replicate)
-
-    def size_at(self, sample):
-        """Samples of the replicate that `sample` is in."""
-        return int(self.sizes[np.searchsorted(self.ends, sample, side="right")])
-
-
-@lru_cache(maxsize=64)
-def layout(sizes):
-    """The `Layout` of a tuple of sizes."""
-    return Layout(sizes)
+from .numbers import layout
 
 
 class Replicates:

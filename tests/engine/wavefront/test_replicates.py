@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from glanz.engine.wavefront.numbers import seed_of
-from glanz.engine.wavefront.replicates import Replicates, layout
+from glanz.engine.wavefront.numbers import layout, seed_of
+from glanz.engine.wavefront.replicates import Replicates
 from glanz.tests import helpers as h
 
 
