@@ -109,7 +109,7 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
                         write_tile(self, tile, settings.region, layer, view)
                     outlines.show(step.in_work)
                     done = (number + step.done) / len(views)
-                    status.show(done, len(warnings), where, reached.error)
+                    status.show(done, len(warnings), where, reached)
                     if self.is_cancelled():
                         break
             if self.is_cancelled():

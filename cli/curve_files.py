@@ -8,7 +8,7 @@ from pathlib import Path
 from ..engine import FileError
 
 SUFFIXES = (".csv", ".json", ".png", ".svg")
-CURE = "pip install 'glanz[bench]'"
+CURE = "run it outside of Blender, in a Python with pip install 'glanz[bench]'"
 
 
 def write(folder, rungs, facts):

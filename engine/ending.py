@@ -44,8 +44,10 @@ def error_sums(values):
 def relative_error(sums):
     """The root of the mean squared standard error of all pixels and channels over their mean radiance: an unbiased guess of
     the relative RMSE, from `error_sums` of all tiles. 0 for a picture that is black without a doubt."""
-    squares, radiance, count = sums
-    return math.sqrt(squares / count) / abs(radiance / count) if squares else 0.0
+    squares, radiance, count = sums.tolist()
+    if not squares:
+        return 0.0
+    return math.sqrt(squares / count) / abs(radiance / count) if radiance else math.inf
 
 
 class Ending:
@@ -81,11 +83,15 @@ class Ending:
         own = (self._end, *(end for end in self._ends if end > samples), *self._for_error(samples, error), *self._for_time(samples))
         return min(own)
 
-    def share(self, samples, error):
-        """How much of the work is done after `samples`, in [0, 1], where error or time are to end it."""
-        by_error = samples / self._needed(samples, error) if self._target else 0.0
+    def share(self, done, reached):
+        """How much of the work is done, in [0, 1], where it is the share `done` of all samples, and error or time may end it before.
+
+        The last `Reached` forecasts when the error will be small enough.
+        """
+        needed = self._needed(reached.samples, reached.error) - self._begin if self._target else math.inf
+        by_error = done * (self._end - self._begin) / needed if needed else 1.0
         by_time = self._seconds() / self._limit if self._limit else 0.0
-        return min(max(by_error, by_time), 1.0)
+        return min(max(done, by_error, by_time), 1.0)
 
     def _for_error(self, samples, error):
         if not self._target:
@@ -108,7 +114,8 @@ class Ending:
         yield samples + max(1, min(done, int(fits / 2)))
 
     def _needed(self, samples, error):
-        return self._begin + (samples - self._begin) * (error / self._target) ** 2
+        # The variance falls as 1 / samples. Nothing is known of an error that is infinite.
+        return self._begin + (samples - self._begin) * (error / self._target) ** 2 if math.isfinite(error) else math.inf
 
     def _seconds(self):
         return time.monotonic() - self._started

@@ -305,7 +305,7 @@ class Pass(Protocol):
                 "": nothing, it is what `gather(film)` (C, slots) makes of the film at the end
     reduction   what a pixel is of its samples: their "mean", the "first" of them, their "sum", or of "ranks": what covers most of it;
                 then there are two `rows` of values, a number and how much it counts, see `wavefront.ranks`; or of "replicates": the
-                pass says by `of(replicates)` (C, P) what it makes of how much they differ, see `wavefront.replicates`
+                pass says by `of(replicates)` (C, P) what it makes of how much their radiances differ, see `wavefront.replicates`
     divided_by  the pass whose share it is, and by which it is divided at the end; "" for none; its own key: there are twice as many
                 `rows` of values as channels, and the first half is divided by the second
 

@@ -123,9 +123,8 @@ def render_plan(plan, ends=(), cancelled=None):
                 while pending:
                     finished, pending = wait(pending, POLL_SECONDS, FIRST_COMPLETED)
                     # First the unfinished: a tile among them may be finished by now.
-                    tiles = (*work.take_unfinished(), *(future.result() for future in finished))
-                    done = max(work.done, ending.share(reached.samples, reached.error))
-                    yield Progress(done, tuple(tile for tile in tiles if tile), work.take_warnings(), work.places, reached)
+                    tiles = tuple(filter(None, (*work.take_unfinished(), *(future.result() for future in finished))))
+                    yield Progress(ending.share(work.done, reached), tiles, work.take_warnings(), work.places, reached)
                 reached = work.reached(samples)
             # What ended early has not known that it would.
             tiles = tuple(_tile(plan, place, tile.result(not work.is_cut), is_final=True) for place, tile in work.tiles.items())

@@ -6,7 +6,6 @@ Prints the slopes. All ladders write docs/growth.md, its plot and docs/growth.js
 machine was busy; some of them write to out/growth.
 """
 
-import argparse
 import json
 import subprocess
 import sys
@@ -14,6 +13,7 @@ import time
 from pathlib import Path
 
 from ..__main__ import describe_machine
+from ..words import asked
 from . import gil, report
 from .ladders import LADDERS
 
@@ -21,16 +21,12 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 def main(arguments=None):
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.growth", description=__doc__.splitlines()[0])
-    parser.add_argument("--quick", action="store_true", help="without the largest rungs, which take most of the time and gigabytes")
-    parser.add_argument("ladders", nargs="*", metavar="ladder", help=f"of: {' '.join(LADDERS)}; none: all")
-    asked = parser.parse_args(arguments)
-    if unknown := set(asked.ladders) - set(LADDERS):
-        parser.error(f"unknown: {', '.join(sorted(unknown))}; known: {', '.join(LADDERS)}")
-    begun, results = time.monotonic(), {"facts": describe_machine() | {"quick": asked.quick}, "ladders": {}}
-    for name in asked.ladders or LADDERS:
-        results["ladders"][name] = climb(name, asked.quick, begun)
-    folder = ROOT / "out" / "growth" if asked.ladders else ROOT / "docs"
+    without = "without the largest rungs, which take most of the time and gigabytes"
+    names, is_quick = asked("benchmarks.growth", __doc__, "ladder", LADDERS, without, arguments)
+    begun, results = time.monotonic(), {"facts": describe_machine() | {"quick": is_quick}, "ladders": {}}
+    for name in names:
+        results["ladders"][name] = climb(name, is_quick, begun)
+    folder = ROOT / "docs" if set(names) == set(LADDERS) else ROOT / "out" / "growth"
     (folder / "images").mkdir(parents=True, exist_ok=True)
     text = report.page(results)
     (folder / "growth.json").write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")

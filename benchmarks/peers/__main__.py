@@ -6,7 +6,6 @@ Prints tables and the bars that Glanz is held to. A whole run writes docs/peers.
 some scenes, or without Mitsuba, writes both to out/peers. Without Mitsuba only Cycles is measured.
 """
 
-import argparse
 import importlib.metadata
 import importlib.util
 import json
@@ -17,6 +16,7 @@ from dataclasses import asdict, dataclass
 import numpy as np
 
 from ..__main__ import describe_machine
+from ..words import asked
 from . import llvm, report
 from .measure import Reference, agreement
 from .work import ROOT, Worker
@@ -52,17 +52,13 @@ QUICK = Effort(side=192, error_side=64, samples=(4, 16), seeds=2, reference=128,
 
 
 def main(arguments=None):
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.peers", description=__doc__.splitlines()[0])
-    parser.add_argument("--quick", action="store_true", help="small pictures, one round: to see that it works, and about where things are")
-    parser.add_argument("scenes", nargs="*", metavar="scene", help=f"of: {' '.join(SCENES)}; none: all")
-    asked = parser.parse_args(arguments)
-    if unknown := set(asked.scenes) - set(SCENES):
-        parser.error(f"unknown: {', '.join(sorted(unknown))}; known: {', '.join(SCENES)}")
+    without = "small pictures, one round: to see that it works, and about where things are"
+    names, is_quick = asked("benchmarks.peers", __doc__, "scene", SCENES, without, arguments)
     OUT.mkdir(parents=True, exist_ok=True)
-    effort, begun = QUICK if asked.quick else Effort(), time.monotonic()
+    effort, begun = QUICK if is_quick else Effort(), time.monotonic()
     facts = describe_machine() | {"threads": THREADS, "effort": asdict(effort), "mitsuba": None, "blender": _version("bpy")} | _mitsuba()
     results = {"facts": facts, "scenes": {}}
-    for name in asked.scenes or SCENES:
+    for name in names:
         _say(f"{time.monotonic() - begun:5.0f} s  {name}")
         results["scenes"][name] = measure(name, effort, facts)
         # What is measured is not lost if a later scene fails.
@@ -72,7 +68,7 @@ def main(arguments=None):
         results["first_pixel"] = first_pixel(effort)
     facts["busy"] = report.busy(results)
     facts["seconds"] = round(time.monotonic() - begun)
-    folder = OUT if asked.quick or asked.scenes or not facts["mitsuba"] else ROOT / "docs"
+    folder = OUT if is_quick or set(names) < set(SCENES) or not facts["mitsuba"] else ROOT / "docs"
     text = report.page(results)
     (folder / "peers.json").write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
     (folder / "peers.md").write_text(text, encoding="utf-8")

@@ -1,23 +1,16 @@
 """An interval around each pixel that holds the truth."""
 
 from ..maths.student import quantile_975
+from ..wavefront.recording import OfError
 from . import registry
 
 
 @registry.add
-class Confidence:
+class Confidence(OfError):
     """Half the width of the interval about the pixel's radiance that holds the truth with 95 % [W m^-2 sr^-1]; infinite where unknown."""
 
     key = "Confidence"
     label = "Confidence (95 %)"
-    channels = "RGB"
-    records = ""
-    reduction = "replicates"
-    divided_by = ""
-
-    @staticmethod
-    def gather(film):
-        return film.radiance
 
     @staticmethod
     def of(replicates):

@@ -1,22 +1,15 @@
 """How far the picture may be from the truth."""
 
+from ..wavefront.recording import OfError
 from . import registry
 
 
 @registry.add
-class StandardError:
+class StandardError(OfError):
     """Standard deviation of the pixel's radiance about what infinitely many samples would give [W m^-2 sr^-1]; infinite where unknown."""
 
     key = "Standard Error"
     label = "Standard Error"
-    channels = "RGB"
-    records = ""
-    reduction = "replicates"
-    divided_by = ""
-
-    @staticmethod
-    def gather(film):
-        return film.radiance
 
     @staticmethod
     def of(replicates):

@@ -24,7 +24,9 @@ class Film:
         self.passes = passes
         self._parts = tuple(p for p in passes if p.records in ("light", "first hit and light"))
         self._added = tuple(p for p in passes if p in self._parts or getattr(p, "covers", False))
-        self.sums = {p.key: _gathering(p, pixels, replicates) for p in passes}
+        # One, whatever is asked of them.
+        self._replicates = (Replicates(3, pixels, replicates),) if any(p.reduction == "replicates" for p in passes) else ()
+        self.sums = {p.key: self._gathering(p, pixels) for p in passes}
         self.samples = np.zeros(pixels, np.int64)
         self._weight = np.zeros(pixels)
         self.bad_samples = 0
@@ -84,15 +86,15 @@ class Film:
             self.radiance[:, bad] = 0
             for p in self._parts:
                 self.recorded[p.key][:, bad] = 0
-        for p in self.passes:
+        for replicates in self._replicates:
+            radiance = self.radiance.reshape(3, self._count, -1)
+            replicates.add(self._window, self._first, radiance * self._weights[:, None] if len(self._weights) else radiance)
+        for p in (p for p in self.passes if p.reduction != "replicates"):
             values = self.recorded[p.key] if p.records else p.gather(self)
             if p.reduction == "ranks":
                 self._rank(p, values)
                 continue
             samples = values.reshape(len(values), self._count, -1)
-            if p.reduction == "replicates":
-                self.sums[p.key].add(self._window, self._first, samples * self._weights[:, None] if len(self._weights) else samples)
-                continue
             total = self.sums[p.key][:, self._window]
             if p.reduction == "first":
                 total += samples[:, 0] if is_first else 0
@@ -102,6 +104,12 @@ class Film:
                 total += samples[:, i] * self._weights[i] if is_weighted else samples[:, i]
         self.samples[self._window] += self._count
         self._weight[self._window] += sum(self._weights) if len(self._weights) else self._count
+
+    def _gathering(self, p, pixels):
+        """What gathers a pass."""
+        if p.reduction == "replicates":
+            return self._replicates[0]
+        return Ranks(pixels) if p.reduction == "ranks" else np.zeros((_rows(p), pixels))
 
     def _rank(self, p, layers):
         """Gather what was met, `layers` of (2, slots), in the order of samples, whatever else is in their batch."""
@@ -125,13 +133,6 @@ class Film:
     def result(self, is_whole=True):
         """`pixels` as they are shown, see `shown`."""
         return shown(self.passes, self.pixels(is_whole))
-
-
-def _gathering(p, pixels, replicates):
-    """What gathers a pass."""
-    if p.reduction == "ranks":
-        return Ranks(pixels)
-    return Replicates(_rows(p), pixels, replicates) if p.reduction == "replicates" else np.zeros((_rows(p), pixels))
 
 
 def _rows(p):

@@ -1,4 +1,4 @@
-"""What most passes have in common, see `interfaces.Pass`: the mean of what is written down along the way, 0 before."""
+"""What most passes have in common, see `interfaces.Pass`: mostly the mean of what is written down along the way, 0 before."""
 
 
 class FirstHit:
@@ -17,3 +17,12 @@ class OfLight:
     reduction = "mean"
     divided_by = ""
     background = 0.0
+
+
+class OfError:
+    """A pass of how far the radiance of a pixel may be from the truth."""
+
+    channels = "RGB"
+    records = ""
+    reduction = "replicates"
+    divided_by = ""

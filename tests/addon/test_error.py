@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from glanz.addon import status
+from glanz.engine.ending import Reached
 from glanz.tests.addon import blender
 
 
@@ -60,8 +61,8 @@ def test_a_time_limit_ends_a_render(lit, tmp_path):
 
 
 def test_the_status_line_says_the_error_when_it_is_known():
-    assert status.text(0.5, 64, 10.0, error=0.0213) == "50% of 64 samples, 0:10 left, error 2.1 %"
-    assert "error" not in status.text(0.5, 64, 10.0)
+    assert status.text(0.5, 64, 10.0, reached=Reached(32, 0.0213)) == "50% of 64 samples, 0:10 left, error 2.1 % after 32"
+    assert "error" not in status.text(0.5, 64, 10.0, reached=Reached(32))
 
 
 def test_what_is_greyed_out_counts_for_nothing(lit, tmp_path):

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from glanz.engine import SceneError, ending, render, render_image
-from glanz.engine.ending import Ending
+from glanz.engine.ending import Ending, Reached
 from glanz.engine.rendering import render_plan
 from glanz.tests import helpers as h, scenes
 
@@ -116,6 +116,23 @@ def test_a_picture_that_time_has_cut_is_unbiased(monkeypatch):
     image = render_image(scene, h.settings(**settings, time_limit=1e6))
     assert image.passes["Sample Count"].min() < image.passes["Sample Count"].max()
     assert h.mean_is(image.passes["Combined"][..., 0].reshape(-1).astype(float), truth[0], floor=1e-4)
+
+
+def test_progress_follows_the_forecast():
+    """A quarter of the samples that the target will take is a quarter of the work; none is known before the first error is."""
+    way = Ending(h.settings(samples=2**20, error_target=0.01))
+    assert way.share(64 / 2**20, Reached(64)) == 64 / 2**20
+    assert way.share(256 / 2**20, Reached(256, 0.02)) == pytest.approx(0.25)
+    assert way.share(384 / 2**20, Reached(256, 0.02)) == pytest.approx(0.375)
+    assert way.share(256 / 2**20, Reached(256, 0.0)) == 1.0
+    assert Ending(h.settings(samples=64)).share(0.5, Reached(0)) == 0.5
+
+
+def test_a_picture_whose_light_adds_up_to_nothing_has_no_relative_error():
+    """Filters with negative lobes may leave as much below as above 0."""
+    assert ending.relative_error(np.array((1.0, 0.0, 3.0))) == math.inf
+    assert ending.relative_error(np.array((3.0, 6.0, 3.0))) == 0.5
+    assert ending.relative_error(np.array((0.0, 0.0, 3.0))) == 0.0
 
 
 def test_rounds_look_seldom_while_the_end_is_far_and_often_when_it_is_near():
