@@ -11,7 +11,7 @@ from itertools import product
 
 import numpy as np
 
-from ..engine import SceneError, prepare, render_plan, validate
+from ..engine import SceneError, gathered, prepare, render_plan, validate
 
 SEEDS = 3
 """Renders of each setting: enough to tell noise from bias, as every pixel tells it."""
@@ -150,14 +150,7 @@ def _render(scene, settings, on_progress):
     began = time.perf_counter()
     plan, _ = prepare(scene, settings)
     prepared = time.perf_counter()
-    x0, y0, x1, y1 = settings.region
-    passes = {}
-    for progress in render_plan(plan):
-        for tile in progress.tiles:
-            for name, values in tile.passes.items():
-                whole = passes.setdefault(name, np.zeros((y1 - y0, x1 - x0, values.shape[2]), np.float32))
-                whole[tile.y - y0 : tile.y - y0 + tile.height, tile.x - x0 : tile.x - x0 + tile.width] = values
-        on_progress(progress.done)
+    passes, _, _ = gathered(render_plan(plan), settings, lambda progress: on_progress(progress.done))
     return passes, time.perf_counter() - prepared, prepared - began
 
 

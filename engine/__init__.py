@@ -33,7 +33,7 @@ from .lights.point import PointLight
 from .lights.spot import SpotLight
 from .lights.sun import SunLight
 from .registry import FILTERS, INTEGRATORS, PASSES, SAMPLERS, TEXTURES
-from .rendering import Image, Progress, Tile, metadata, prepare, render, render_image, render_plan
+from .rendering import Image, Progress, Tile, gathered, metadata, prepare, render, render_image, render_plan
 from .requirements import Requirements
 from .scene import (
     Bitmap,
@@ -219,6 +219,7 @@ __all__ = [
     "albedo_of",
     "average_of",
     "folded",
+    "gathered",
     "is_texture",
     "library_faults",
     "metadata",

@@ -137,8 +137,19 @@ def render_plan(plan, ends=(), cancelled=None):
 def render_image(scene, settings, on_progress=None):
     """The whole `Image`; `on_progress`, if given, is called with each `Progress`."""
     x0, y0, x1, y1 = settings.region
+    passes, warnings, reached = gathered(render(scene, settings), settings, on_progress)
+    outcome = {f"glanz.reached.{name}": value for name, value in reached.facts().items()}
+    return Image(x1 - x0, y1 - y0, passes, metadata(scene, settings) | outcome, warnings)
+
+
+def gathered(steps, settings, on_progress=None):
+    """(passes {name: (height, width, channels) float32}, warnings, the last `Reached`) of all `steps` of a render, each a `Progress`.
+
+    `on_progress`, if given, is called with each.
+    """
+    x0, y0, x1, y1 = settings.region
     passes, warnings, reached = {}, [], NOT_BEGUN
-    for progress in render(scene, settings):
+    for progress in steps:
         warnings += progress.warnings
         reached = progress.reached
         for tile in progress.tiles:
@@ -148,8 +159,7 @@ def render_image(scene, settings, on_progress=None):
                 passes[name][tile.y - y0 : tile.y - y0 + tile.height, tile.x - x0 : tile.x - x0 + tile.width] = values
         if on_progress:
             on_progress(progress)
-    outcome = {f"glanz.reached.{name}": value for name, value in reached.facts().items()}
-    return Image(x1 - x0, y1 - y0, passes, metadata(scene, settings) | outcome, tuple(warnings))
+    return passes, tuple(warnings), reached
 
 
 def metadata(scene, settings, layer="", requirements=None):
