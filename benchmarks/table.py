@@ -60,6 +60,24 @@ ROWS = (
     ("memory", "import_bpy", "resident after `import bpy`", "MB", None),
     ("memory", "peak", "peak, Cornell box 1920x1080 with 3 passes", "MB", None),
     ("memory", "over", "over what `import bpy` takes", "MB", 1000),
+    *(
+        ("large", f"{shading}_{key}", text, unit, bar)
+        for shading in ("smooth", "flat")
+        for key, text, unit, bar in (
+            ("triangles", f"one {shading} mesh in Blender, 512x512, 16 samples, F12", "M triangles", None),
+            ("export", "export", "s", None),
+            ("export_cpu", "the same, processor time", "s", None),
+            ("build", "checks, tables and Embree's tree", "s", None),
+            ("build_cpu", "the same, processor time", "s", None),
+            ("render", "rendering", "s", None),
+            ("render_cpu", "the same, processor time", "s", None),
+            ("total", "all of it", "s", 60),
+            ("total_cpu", "the same, processor time", "s", None),
+            ("before", "resident before F12: Blender and its mesh", "MB", None),
+            ("over", "the most above that", "MB", None),
+            ("peak", "peak", "MB", 8000),
+        )
+    ),
 )
 """A bar is an upper bound; a negative one is a lower bound."""
 
