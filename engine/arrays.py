@@ -48,7 +48,7 @@ def frozen(array, dtype, shape, subject, name):
             result = np.ascontiguousarray(array, dtype=dtype)
     except (TypeError, ValueError, OverflowError) as error:
         raise ValueError(f"{subject}: {name} is not an array of numbers ({error})") from None
-    if result.dtype.kind == "i" and not np.array_equal(result, array):
+    if result.dtype.kind == "i" and result is not array and not np.array_equal(result, array):
         raise ValueError(f"{subject}: {name} are not all whole numbers below 2^{8 * result.itemsize - 1}")
     if len(result.shape) != len(shape) or any(want not in (None, have) for want, have in zip(shape, result.shape)):
         wanted = "(" + ", ".join("any" if n is None else str(n) for n in shape) + ")"

@@ -14,21 +14,17 @@ def export_mesh(mesh, name, attributes=(), groups=()):
     `attributes` are what textures are looked up at, as `Material.attributes` has them; others are left out. `groups` are
     the names of the vertex groups.
     """
-    triangles = mesh.loop_triangles
-    if not len(triangles):
-        mesh.calc_loop_triangles()
-        triangles = mesh.loop_triangles
-    flat = is_flat(mesh)
+    flat, loops = is_flat(mesh), triangle_corners(mesh)
+    triangles = corners(mesh).take(loops)
     layers = uv_layers(mesh, [layer for source, layer in attributes if source in ("uv", "tangent")])
     names = {name for source, name in attributes if source in ("attribute", "number", "alpha", "colour alpha")}
-    loops = np.zeros((3, 0)) if flat and not (layers or names) else _columns(triangles, "loops", np.int32)
     return Mesh(
         name=name,
         vertices=vertices(mesh),
-        triangles=_columns(triangles, "vertices", np.int32),
-        normals=np.zeros((3, 0)) if flat else corner_normals(mesh),
-        normal_indices=np.zeros((3, 0)) if flat else loops,
-        material_indices=material_indices(triangles),
+        triangles=triangles,
+        normals=np.zeros((3, 0)) if flat else normals(mesh),
+        normal_indices=np.zeros((3, 0)) if flat else triangles if has_vertex_normals(mesh) else loops,
+        material_indices=material_indices(mesh),
         uv_layers=[layer.name for layer in layers],
         uvs=_uvs(layers, len(mesh.loops)),
         uv_indices=loops if layers else np.zeros((3, 0)),
@@ -50,21 +46,36 @@ def mesh_of(ob):
         ob.to_mesh_clear()
 
 
+# Attributes are copied as they lie in memory, up to a hundred times faster than the same numbers of vertices, corners and faces.
+
+
 def vertices(mesh):
     """(3, V) float32 [m]."""
-    return _columns(mesh.vertices, "co", np.float32)
+    return _columns(mesh.attributes["position"].data, "vector", np.float32)
 
 
-def corner_normals(mesh):
-    """(3, L) float32, a normal for each corner of each face."""
-    return _columns(mesh.corner_normals, "vector", np.float32)
+def has_vertex_normals(mesh):
+    """Whether all corners that meet at a vertex have the same normal: every face is smooth, and no edge is sharp."""
+    return mesh.normals_domain == "POINT" and not mesh.has_custom_normals
+
+
+def normals(mesh):
+    """(3, V) float32 of a mesh that `has_vertex_normals`, else (3, L), a normal for each corner of each face."""
+    return _columns(mesh.vertex_normals if has_vertex_normals(mesh) else mesh.corner_normals, "vector", np.float32)
 
 
 def corners(mesh):
     """(L,) the vertex of each corner of each face: what the mesh is made of, whatever its shape."""
     result = np.empty(len(mesh.loops), np.int32)
-    mesh.loops.foreach_get("vertex_index", result)
+    mesh.attributes[".corner_vert"].data.foreach_get("value", result)
     return result
+
+
+def triangle_corners(mesh):
+    """(3, F) int32: which of the corners of the faces those of each triangle are."""
+    if not len(mesh.loop_triangles):
+        mesh.calc_loop_triangles()
+    return _columns(mesh.loop_triangles, "loops", np.int32)
 
 
 def uv_layers(mesh, names):
@@ -96,10 +107,12 @@ def is_flat(mesh):
     return mesh.normals_domain == "FACE" and not mesh.has_custom_normals
 
 
-def material_indices(triangles):
+def material_indices(mesh):
     """(F,) indices of material slots, or (0,) where all are the first; Geometry Nodes can store negative ones, which count as 0."""
-    indices = np.empty(len(triangles), np.int32)
-    triangles.foreach_get("material_index", indices)
+    if "material_index" not in mesh.attributes:
+        return np.zeros(0, np.int32)
+    indices = np.empty(len(mesh.loop_triangles), np.int32)
+    mesh.loop_triangles.foreach_get("material_index", indices)
     return np.maximum(indices, 0) if indices.any() else np.zeros(0, np.int32)
 
 

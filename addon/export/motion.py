@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 
 from .findings import IGNORED
-from .mesh import corner_normals, corners, is_flat, mesh_of, vertices
+from .mesh import corners, has_vertex_normals, is_flat, mesh_of, normals, triangle_corners, vertices
 
 _MOST_STEPS = 7
 """As in Cycles: 129 keys."""
@@ -177,7 +177,7 @@ class Tracks:
         if mesh is not None and may_deform(ob, parent):
             if id(mesh) not in self._shapes:
                 with mesh_of(ob) as data:
-                    self._shapes[id(mesh)] = _Shapes(mesh, corners(data), len(self._shutter.frames))
+                    self._shapes[id(mesh)] = _Shapes(mesh, data, len(self._shutter.frames))
             shapes = self._shapes[id(mesh)]
         identity = self._identity(instance)
         matrices = [None] * len(self._shutter.frames)
@@ -264,10 +264,15 @@ class _Instance:
 
 
 class _Shapes:
-    """The shapes that one mesh takes; `is_other` where it is another mesh at some time."""
+    """The shapes that one mesh takes; `is_other` where it is another mesh at some time.
 
-    def __init__(self, mesh, corner_vertices, count):
-        self._mesh, self._corners = mesh, corner_vertices
+    `data` is Blender's mesh in the middle.
+    """
+
+    def __init__(self, mesh, data, count):
+        self._mesh, self._corners = mesh, corners(data)
+        # Faces may be triangulated otherwise at other times.
+        self._triangle_corners = triangle_corners(data) if has_vertex_normals(data) else None
         self._vertices, self._normals = [mesh.vertices] * count, [mesh.normals] * count
         self._looked = set()
         self._changed = {}
@@ -286,7 +291,17 @@ class _Shapes:
             return
         self._vertices[number] = now
         if self._mesh.is_smooth and not is_flat(data):
-            self._normals[number] = corner_normals(data)
+            now, is_of_vertices = normals(data), has_vertex_normals(data)
+            if self._triangle_corners is not None and not is_of_vertices:
+                self._sharpen()
+            self._normals[number] = now.take(self._corners, axis=1) if is_of_vertices and self._triangle_corners is None else now
+
+    def _sharpen(self):
+        """From normals of vertices to those of corners: an edge is sharp at some time."""
+        self._normals = [values.take(self._corners, axis=1) for values in self._normals]
+        smooth = self._mesh.normals.take(self._corners, axis=1)
+        self._mesh = replace(self._mesh, normals=smooth, normal_indices=self._triangle_corners)
+        self._triangle_corners = None
 
     def beside(self):
         """The mesh with the shapes of the frames beside; as it was where it does not change or is another."""

@@ -40,6 +40,29 @@ def test_smooth_normals_are_blenders_corner_normals():
     np.testing.assert_allclose(normals[0][0], np.array((-1, -1, -1)) / 3**0.5, atol=1e-6)
 
 
+def test_normals_of_vertices_where_no_edge_is_sharp_and_else_of_corners():
+    ob = blender.add_tetrahedron()
+    ob.data.shade_smooth()
+    mesh = blender.export_object("Tetrahedron").mesh
+    assert mesh.normals.shape == mesh.vertices.shape
+    np.testing.assert_array_equal(mesh.normal_indices, mesh.triangles)
+    ob.data.edges[0].use_edge_sharp = True
+    assert blender.export_object("Tetrahedron").mesh.normals.shape == (3, len(ob.data.loops))
+
+
+def test_concave_faces_have_the_triangles_and_materials_that_blender_shows():
+    ob = blender.add_plane()
+    ob.data.vertices[0].co = ob.data.vertices[3].co * 0.5
+    for name in "ab":
+        ob.data.materials.append(bpy.data.materials.new(name))
+    assert blender.export_object("Plane").mesh.material_indices.size == 0
+    ob.data.polygons[0].material_index = 1
+    mesh = blender.export_object("Plane").mesh
+    ob.data.calc_loop_triangles()
+    np.testing.assert_array_equal(mesh.triangles.T, [t.vertices for t in ob.data.loop_triangles])
+    np.testing.assert_array_equal(mesh.material_indices, [1, 1])
+
+
 def test_sharp_edges_split_normals():
     ob = blender.add_tetrahedron()
     ob.data.shade_smooth()

@@ -5,6 +5,8 @@ import numpy as np
 import pytest
 
 from glanz.addon import capture, checks
+from glanz.addon.export.mesh import export_mesh, triangle_corners
+from glanz.addon.export.motion import _Shapes
 from glanz.tests.addon import blender
 
 
@@ -131,6 +133,27 @@ def test_a_mesh_that_deforms_has_its_shapes_and_its_normals():
     np.testing.assert_allclose(o.mesh.shapes[:, 2] - o.mesh.shapes[0, 2], [[z] * 4 for z in (0, 0.25, 0.5)], atol=1e-5)
     assert o.mesh.shape_normals.shape == (3, *o.mesh.normals.shape)
     assert not o.moves
+
+
+@pytest.mark.parametrize("middle", [False, True])
+@pytest.mark.parametrize("ends", [False, True])
+def test_edges_that_are_sharp_for_a_while_split_normals_for_as_long(middle, ends):
+    ob = blender.add_tetrahedron()
+    ob.data.shade_smooth()
+    corner_normals = []
+    for number, is_sharp in ((1, middle), (0, ends), (2, ends)):
+        ob.data.vertices[3].co.z = 1 + 0.1 * number
+        ob.data.edges[0].use_edge_sharp = is_sharp
+        ob.data.update()
+        if number == 1:
+            shapes = _Shapes(export_mesh(ob.data, "Plane"), ob.data, 3)
+        else:
+            shapes.look(number, ob.data)
+        loops = triangle_corners(ob.data)
+        corner_normals.insert(number, [tuple(ob.data.corner_normals[i].vector) for i in loops.ravel()])
+    mesh = shapes.changed(3, lambda keys, count: np.stack(keys))
+    of_corners = mesh.shape_normals[:, :, mesh.normal_indices.ravel()].transpose(0, 2, 1)
+    np.testing.assert_array_equal(of_corners, np.array(corner_normals, np.float32))
 
 
 def test_deformation_can_be_switched_off():
