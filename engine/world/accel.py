@@ -17,6 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import AccelError
+from . import shared_buffers
 
 RAYS_PER_CALL = 2**17
 """A call cannot be interrupted; this many rays take less than half a second."""
@@ -55,20 +56,18 @@ class Accel:
         if triangles.size and not 0 <= triangles.min() <= triangles.max() < vertices.shape[1]:
             raise AccelError(f"triangles name vertices {triangles.min()} to {triangles.max()} of {vertices.shape[1]}")
         _refuse_beyond_memory(triangles.shape[1])
-        rtcore_scene, mesh_construction = _embreex()
-        # Robust: watertight at shared edges, 7 to 10 % of rays aimed at an edge leak without.
-        self._scene = rtcore_scene.EmbreeScene(robust=True)
-        # Embree reads the arrays once; they are kept because embreex does not say that it has copied them.
-        self._arrays = np.ascontiguousarray(vertices.T), np.ascontiguousarray(triangles.T, np.int32)
+        # Embree may read one number more than the last vertex has.
+        padded = np.zeros((vertices.shape[1] + 1, 3), np.float32)
+        padded[:-1] = vertices.T
+        # As long as the tree is there, so are the arrays: Embree may read them.
+        self._arrays = padded, np.ascontiguousarray(triangles.T, np.int32)
         self.is_empty = triangles.shape[1] == 0
-        if not self.is_empty:
-            self._mesh = mesh_construction.TriangleMesh(self._scene, *self._arrays)
-            # The tree is built at the first query: do it now, where one thread runs and errors have a name.
-            self.closest(np.zeros((3, 1), np.float32), np.ones((3, 1), np.float32))
+        self._scene, self._mesh = (None, None) if self.is_empty else _build(*self._arrays)
 
     def is_of(self, vertices, triangles):
         """Whether it was made of these vertices (3, V) and triangles (3, F)."""
-        return all(np.array_equal(own, other.T) for own, other in zip(self._arrays, (vertices, triangles)))
+        own_vertices, own_triangles = self._arrays
+        return np.array_equal(own_vertices[:-1], vertices.T) and np.array_equal(own_triangles, triangles.T)
 
     def closest(self, o, d, limit=None):
         """The nearest triangle along each ray: o, d (3, N) float32, d unit; returns `Hits`.
@@ -99,6 +98,25 @@ class Accel:
             found = self._scene.run(o[:, lanes].T, d[:, lanes].T, dists=limit[lanes].copy(), query="OCCLUDED")
             result[lanes] = found >= 0
         return result
+
+
+def _build(vertices, triangles):
+    """embreex's scene with its mesh of `vertices` (V + 1, 3), the last of which is none, and `triangles` (F, 3)."""
+    rtcore, rtcore_scene, mesh_construction = _embreex()
+    device = rtcore.EmbreeDevice()
+    # Robust: watertight at shared edges, 7 to 10 % of rays aimed at an edge leak without.
+    scene = rtcore_scene.EmbreeScene(device, robust=True)
+    library, pointer = shared_buffers.library_of(rtcore_scene), shared_buffers.scene_pointer(scene, device)
+    if not (library and pointer):
+        mesh = mesh_construction.TriangleMesh(scene, vertices[:-1], triangles)
+        # The tree is built at the first query: do it now, where one thread runs and errors have a name.
+        scene.run(np.zeros((1, 3), np.float32), np.ones((1, 3), np.float32))
+        return scene, mesh
+    mesh = mesh_construction.TriangleMesh(scene, vertices[:1], np.zeros((1, 3), np.int32))
+    if error := shared_buffers.share(library, pointer, vertices, triangles):
+        raise AccelError(f"Embree cannot build a tree of {len(triangles)} triangles: its error {error}")
+    scene.is_committed = 1
+    return scene, mesh
 
 
 def _no_hits(n, limit):
@@ -168,12 +186,12 @@ def _embreex():
     """
     with _deepbind():
         try:
-            from embreex import mesh_construction, rtcore_scene
+            from embreex import mesh_construction, rtcore, rtcore_scene
         except Exception as error:  # whatever a library raises that was built for another NumPy or another system
             raise AccelError(
                 f"embreex cannot be loaded ({error}); install the package embreex, or the Glanz extension for this platform"
             ) from error
-    return rtcore_scene, mesh_construction
+    return rtcore, rtcore_scene, mesh_construction
 
 
 @contextlib.contextmanager

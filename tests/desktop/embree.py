@@ -18,10 +18,10 @@ def main():
         return
     yield 0.1
     accel = importlib.import_module(f"{ui.package}.engine.world.accel")
-    rtcore_scene, mesh_construction = accel._embreex()
+    rtcore, rtcore_scene, mesh_construction = accel._embreex()
     own = Path(rtcore_scene.__file__).parents[1]
     assert Path(bpy.utils.user_resource("EXTENSIONS")).resolve() in own.resolve().parents
-    for module in (rtcore_scene, mesh_construction, sys.modules["embreex.rtcore"]):
+    for module in (rtcore, rtcore_scene, mesh_construction):
         bound = symbols.bindings(module.__file__, "rtc")
         for function, path in sorted(bound.items()):
             print(f"{Path(module.__file__).name}: {function} -> {path}")

@@ -176,9 +176,11 @@ def test_closed_meshes_far_from_the_origin_hold_rays_in():
 
 def test_holding_in_catches_embree_without_robustness(monkeypatch):
     """The mutant leaks 7 % of the rays aimed at edges."""
-    rtcore_scene, mesh_construction = module._embreex()
-    fragile = SimpleNamespace(EmbreeScene=lambda robust: rtcore_scene.EmbreeScene(robust=False))
-    monkeypatch.setattr(module, "_embreex", lambda: (fragile, mesh_construction))
+    rtcore, rtcore_scene, mesh_construction = module._embreex()
+    fragile = SimpleNamespace(
+        EmbreeScene=lambda device, robust: rtcore_scene.EmbreeScene(device, robust=False), __file__=rtcore_scene.__file__
+    )
+    monkeypatch.setattr(module, "_embreex", lambda: (rtcore, fragile, mesh_construction))
     assert leaks(star(), "edge", n=20_000) > 0.01
 
 
