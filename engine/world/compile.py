@@ -30,6 +30,8 @@ from .views import CameraSpace
 
 FARTHEST = 1e12
 """In render space; Embree's robust test overflows from 3e12 on, and finds nothing."""
+AT_ONCE = 2**16
+"""Triangles that are measured at once: in double precision they fit into the cache."""
 _MOVES = 2
 """The rank of triangles that move: 0 is that of others, 1 that of those which emit."""
 
@@ -143,31 +145,34 @@ def compile_world(
     changing = [(i, o) for i, o in enumerate(scene.objects) if motion_steps and o.mesh.triangles.size and not o.is_still]
     moving = [Moving.of(i, o, row, smooth, motion_steps) for i, o in changing]
     parts = [*still, *(part for m in moving for part in m.parts)]
+    if (count := _starts(parts)[-1]) >= 2**31:
+        raise SceneError(f"scene '{scene.name}': its objects have {count} vertices, allowed: less than 2^31; leave objects out")
     frame, vertices, indices, radius = _merge(still, moving, before.frame.origin if before else scene.camera.position)
-    material = _concatenate([part.material for part in parts], 0).astype(np.intp)
-    owner = _concatenate([part.owner for part in parts], 0).astype(np.intp)
+    material = _concatenate([part.material for part in parts], 0, np.intp)
+    owner = _concatenate([part.owner for part in parts], 0, np.int32)
     if has_media:
         away = np.zeros(len(scene.objects))
         away[[i for i, _ in changing]] = [frame.scale * m.away(frame.origin) for m in moving]
         vertices = moved_apart(vertices, indices, owner, bodies.layer.take(owner), away)
-    corners, double_area, normal, usable = _measure(vertices, indices)
+    shape, extent, usable, has_area = _measure(vertices, indices)
     warnings = [torn(scene.objects[i]) for i in np.unique(owner[~usable])]
-    # A triangle without an area is never hit: leaving it out changes no picture. Emitters come last, but for what moves.
+    # Emitters come last, but for what moves.
     rank = table.emission.any(axis=0)[material].astype(np.int8)
     faces = sum(part.owner.size for part in still)
     rank[faces:] = _MOVES
     glows = [colours.take(material[faces:], axis=1) for colours in (table.emission, table.shine)]
-    glowing = np.where(usable[faces:], corners[:, :, faces:], 0) if glows[0].any() else None
-    keep = np.nonzero(usable & (double_area > 0))[0]
+    glowing = np.where(usable[faces:], vertices.take(indices[:, faces:], axis=1), 0) if glows[0].any() else None
+    # A triangle without an area is never hit: leaving it out changes no picture.
+    keep = np.nonzero(has_area)[0]
     keep = keep[np.argsort(rank[keep], kind="stable")]
     rank = rank[keep]
-    corners, normal, material = corners.take(keep, axis=2), normal.take(keep, axis=1), material[keep]
-    indices = indices.take(keep, axis=1)
-    e1, e2 = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    column, corner_normals = _smooth(parts, keep, normal) if smooth else (np.zeros(0, np.intp), np.zeros((9, 0), np.float32))
+    if keep.size < owner.size or (np.diff(keep) != 1).any():
+        shape, extent, indices = (values.take(keep, axis=-1) for values in (shape, extent, indices))
+        material, owner = material.take(keep), owner.take(keep)
+    column, corner_normals = _smooth(parts, keep, shape[9:]) if smooth else (np.zeros(0, np.intp), np.zeros((9, 0), np.float32))
     triangles = Triangles(
-        shape=np.concatenate((corners[:, 0], e1, e2, normal)),
-        extent=np.maximum(np.abs(e1), np.abs(e2)).max(axis=0, initial=0),
+        shape=shape,
+        extent=extent,
         smooth=column,
         corner_normals=corner_normals,
         material=material,
@@ -178,18 +183,17 @@ def compile_world(
         at_rest = vertices, indices[:, : triangles.first_moving]
         accel = before.accel if before and before.accel.is_of(*at_rest) else Accel(*at_rest)
         movers = _movers(moving, parts, frame, vertices, indices, keep) if moving else None
-        own = owner[keep][: triangles.first_moving]
         whole = Sight(accel, None, movers)
-        sights = Sights.of(scene, own, at_rest, whole, [i for i, _ in changing]) if has_sights else None
+        sights = Sights.of(scene, owner[: triangles.first_moving], at_rest, whole, [i for i, _ in changing]) if has_sights else None
     except AccelError as error:
         raise SceneError(f"scene '{scene.name}': {error}") from error
     last = slice(triangles.first_emitter, triangles.first_moving)
     emitters = Emitters.of(
         vertices,
         indices[:, last],
-        normal[:, last],
+        shape[9:, last],
         table.emission.take(material[last], axis=1),
-        owner[keep][last],
+        owner[last],
         np.isin(material[last], list(table.glowing)),
         np.arange(last.start, last.stop) if table.glowing else None,
     )
@@ -200,7 +204,7 @@ def compile_world(
     environment = environment_of(scene.world) if has_environment and scene.world.may_vary else None
     passing = passing_of(materials) if passing_of else None
     attributes, lost = compile_attributes(
-        parts, keep, material, table.wanted | dict.fromkeys(asked, range(len(materials))), scene.objects, owner[keep]
+        parts, keep, material, table.wanted | dict.fromkeys(asked, range(len(materials))), scene.objects, owner
     )
     camera = CameraSpace.of(scene.camera, frame)
     glow = TexturedGlow(table.glowing, triangles, attributes, frame, camera) if table.glowing else EVEN
@@ -217,7 +221,7 @@ def compile_world(
         lights=lights,
         emitters=emitters,
         background=np.array((0.0, 0.0, 0.0) if environment else scene.world.radiance, np.float32)[:, None],
-        media=Media.of(bodies, row, material, owner[keep], frame.scale) if has_media else None,
+        media=Media.of(bodies, row, material, owner, frame.scale) if has_media else None,
         passing=passing,
         sights=sights and sights.of_lights(scene, lights, emitters.objects),
         holdouts=Holdouts.of(materials) if has_holdouts else None,
@@ -251,16 +255,18 @@ def _number_materials(scene):
 
 def _merge(still, moving, origin):
     """Render space; the vertices (3, V) float32 and triangles (3, F) of all parts, each in its frame; the scene's radius [m]."""
-    world = _concatenate([part.vertices for part in still], (3, 0))
-    away = _concatenate([world, *(m.world for m in moving)], (3, 0)) - origin[:, None]
+    world = _concatenate([part.vertices for part in still], (3, 0), np.float64)
+    away = _concatenate([world, *(m.world for m in moving)], (3, 0), np.float64) - origin[:, None]
     frame = Frame.around(origin, length(away))
+    reach = np.abs(away, out=away).max(axis=0)
+    radius = float(reach[reach * frame.scale < FARTHEST].max(initial=0)) or 1.0
+    del away
     parts = [*still, *(part for m in moving for part in m.parts)]
     # Rounded once; from here on the rounded values are the geometry, for Embree and for everything else.
-    local = [(frame.scale * part.vertices).astype(np.float32) for m in moving for part in m.parts]
-    vertices = _concatenate([frame.points(world).astype(np.float32), *local], (3, 0))
-    indices = _concatenate([part.triangles + start for part, start in zip(parts, _starts(parts))], (3, 0)).astype(np.int32)
-    usable = np.abs(away[:, (np.abs(away) * frame.scale < FARTHEST).all(axis=0)])
-    return frame, vertices, indices, float(usable.max(initial=0)) or 1.0
+    local = [frame.scale * part.vertices for m in moving for part in m.parts]
+    vertices = _concatenate([values.astype(np.float32) for values in (frame.points(world), *local)], (3, 0), np.float32)
+    indices = _concatenate([part.triangles + np.int32(start) for part, start in zip(parts, _starts(parts))], (3, 0), np.int32)
+    return frame, vertices, indices, radius
 
 
 def _starts(parts):
@@ -284,33 +290,53 @@ def _movers(moving, parts, frame, vertices, indices, keep):
 
 
 def _measure(vertices, indices):
-    """Corners (3 coordinates, 3, F), twice the area (F,), unit normals (3, F), and which triangles are usable (F,)."""
-    corners = vertices.take(indices, axis=1)
-    usable = (np.abs(corners) < FARTHEST).all(axis=(0, 1))  # false for NaN
-    exact = corners.astype(np.float64)
-    normal = cross(exact[:, 1] - exact[:, 0], exact[:, 2] - exact[:, 0])
-    double_area = length(normal)
-    return corners, double_area, (normal / np.maximum(double_area, np.finfo(np.float64).tiny)).astype(np.float32), usable
+    """`Triangles.shape` and `.extent`, and which triangles are usable and which of these have an area, (F,) bool each."""
+    count = indices.shape[1]
+    shape, extent = np.empty((12, count), np.float32), np.empty(count, np.float32)
+    usable, has_area = np.empty(count, bool), np.empty(count, bool)
+    for start in range(0, count, AT_ONCE):
+        here = slice(start, start + AT_ONCE)
+        corners = vertices.take(indices[:, here], axis=1)
+        usable[here] = (np.abs(corners) < FARTHEST).all(axis=(0, 1))  # false for NaN
+        exact = corners.astype(np.float64)
+        normal = cross(exact[:, 1] - exact[:, 0], exact[:, 2] - exact[:, 0])
+        double_area = length(normal)
+        has_area[here] = usable[here] & (double_area > 0)
+        first, second, third = corners.transpose(1, 0, 2)
+        normal /= np.maximum(double_area, np.finfo(np.float64).tiny)
+        shape[:, here] = np.concatenate((first, second - first, third - first, normal), dtype=np.float32, casting="same_kind")
+        extent[here] = np.abs(shape[3:9, here]).max(axis=0)
+    return shape, extent, usable, has_area
 
 
 def _smooth(parts, keep, flat):
     """`Triangles.smooth` and `.corner_normals`; corners whose normal has no direction take the geometric one."""
-    given = _concatenate([part.corner_normals for part in parts], (9, 0)).astype(np.float32)
-    is_smooth = _concatenate([np.full(part.owner.size, part.corner_normals.shape[1] > 0) for part in parts], 0)
-    column = np.where(is_smooth, np.cumsum(is_smooth) - 1, -1).astype(np.intp)[keep]
+    given = _concatenate([part.corner_normals for part in parts], (9, 0), np.float32)
+    is_smooth = _concatenate([np.full(part.owner.size, part.corner_normals.shape[1] > 0) for part in parts], 0, bool)
+    column = np.cumsum(is_smooth, dtype=np.intp)
+    column -= 1
+    column[~is_smooth] = -1
+    column = column.take(keep)
     kept = np.nonzero(column >= 0)[0]
-    given, flat = given.take(column[kept], axis=1), flat.take(kept, axis=1)
+    result = np.empty((9, kept.size), np.float32)
+    for start in range(0, kept.size, AT_ONCE):
+        here = kept[start : start + AT_ONCE]
+        corners, normal = given.take(column[here], axis=1), flat.take(here, axis=1)
+        for corner in (corners[0:3], corners[3:6], corners[6:9]):
+            cos = dot(corner, normal)
+            # Not NaN, not zero, and on the side of the geometric normal, whose sign decides for both.
+            corner *= np.copysign(1, cos).astype(np.float32)
+            lacking = ~(np.abs(cos) > 0)
+            corner[:, lacking] = normal[:, lacking]
+        corners[3:6] -= corners[0:3]
+        corners[6:9] -= corners[0:3]
+        result[:, start : start + AT_ONCE] = corners
     column[kept] = np.arange(kept.size)
-    for corner in (given[0:3], given[3:6], given[6:9]):
-        cos = dot(corner, flat)
-        # Not NaN, not zero, and on the side of the geometric normal, whose sign decides for both.
-        corner *= np.copysign(1, cos).astype(np.float32)
-        lacking = ~(np.abs(cos) > 0)
-        corner[:, lacking] = flat[:, lacking]
-    given[3:6] -= given[0:3]
-    given[6:9] -= given[0:3]
-    return column, given
+    return column, result
 
 
-def _concatenate(arrays, empty):
-    return np.concatenate(arrays, axis=-1) if arrays else np.zeros(empty)
+def _concatenate(arrays, empty, dtype):
+    """The arrays along their last axis as one of `dtype`, `empty` being the shape of none; one alone is not copied."""
+    if len(arrays) == 1:
+        return arrays[0].astype(dtype, copy=False)
+    return np.concatenate(arrays, axis=-1, dtype=dtype) if arrays else np.zeros(empty, dtype)

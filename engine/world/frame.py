@@ -34,4 +34,6 @@ class Frame:
 
     def points(self, p):
         """World points (3, N) in render space, float64."""
-        return (np.asarray(p, np.float64) - self.origin[:, None]) * self.scale
+        result = np.asarray(p, np.float64) - self.origin[:, None]
+        result *= self.scale
+        return result

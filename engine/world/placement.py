@@ -13,10 +13,10 @@ class Part:
     """All objects that share one mesh, in world space and one after the other.
 
     vertices        (3, V) float64 [m]
-    triangles       (3, F) intp, into these vertices; counter-clockwise also where an object is mirrored
+    triangles       (3, F) int32, into these vertices; counter-clockwise also where an object is mirrored
     corner_normals  (9, F) float32, world space, unit; (9, 0): flat, or not wanted
     material        (F,) intp, rows of the materials
-    owner           (F,) intp, the object's place in the scene
+    owner           (F,) int32, the object's place in the scene
     mesh            the mesh that they share
     mirrored        whether each object turns the winding of its triangles, bool
     """
@@ -48,31 +48,35 @@ def _place_instances(instances, row, smooth):
     matrix = np.stack([o.world_from_object for _, o in instances])
     vertices = matrix[:, :3, :3] @ mesh.vertices.astype(np.float64) + matrix[:, :3, 3:]
     mirrored = flips_orientation(matrix)
-    triangles = _corners(mesh.triangles, mirrored)
-    triangles += points * np.arange(count)[:, None]
+    triangles = _corners(mesh.triangles, mirrored, points)
     rows = [_material_rows(o, row) for _, o in instances]
     corner_normals = np.zeros((9, 0), np.float32)
     if smooth and mesh.is_smooth:
         normals = (cofactors(matrix) @ mesh.normals.astype(np.float64)).transpose(1, 0, 2)
         norm = length(normals)
         normals /= np.where(norm > 0, norm, 1)
-        indices = _corners(mesh.normal_indices, mirrored) + mesh.normals.shape[1] * np.arange(count)[:, None]
-        corners = normals.reshape(3, -1).astype(np.float32).take(indices.reshape(3, -1), axis=1)
-        corner_normals = corners.transpose(1, 0, 2).reshape(9, -1)
+        indices = _corners(mesh.normal_indices, mirrored, mesh.normals.shape[1]).reshape(3, -1)
+        corner_normals = np.empty((9, faces * count), np.float32)
+        corners = normals.reshape(3, -1).astype(np.float32)
+        for corner, index in enumerate(indices):
+            corners.take(index, axis=1, out=corner_normals[3 * corner : 3 * corner + 3], mode="clip")
     return Part(
         vertices=vertices.transpose(1, 0, 2).reshape(3, -1),
         triangles=triangles.reshape(3, -1),
         corner_normals=corner_normals,
         material=np.concatenate(rows),
-        owner=np.repeat([place_in_scene for place_in_scene, _ in instances], faces),
+        owner=np.repeat(np.array([place_in_scene for place_in_scene, _ in instances], np.int32), faces),
         mesh=mesh,
         mirrored=mirrored,
     )
 
 
-def _corners(indices, mirrored):
-    """Corner indices (3, F) for each instance, (3, K, F) intp; a mirrored triangle keeps its front by turning its winding."""
-    each = np.repeat(indices.astype(np.intp)[:, None], mirrored.size, axis=1)
+def _corners(indices, mirrored, count):
+    """Corner indices (3, F) into `count` things, for each instance (3, K, F); mirrored triangles are wound the other way round."""
+    starts = np.arange(mirrored.size) * count
+    # In half the memory, if they fit.
+    starts = starts.astype(np.int32) if mirrored.size * count < 2**31 else starts
+    each = indices[:, None] + starts[:, None]
     each[1:, mirrored] = each[:0:-1, mirrored]
     return each
 

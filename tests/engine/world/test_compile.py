@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from glanz.engine import Lambert, Material, Phong, SceneError
-from glanz.engine.world import accel
+from glanz.engine.world import accel, compile
 from glanz.tests import helpers as h
 
 
@@ -128,3 +128,28 @@ def test_lobes_of_one_kind_in_one_material_get_a_slot_each():
     two = Material(name="two", lobes=(Phong((0.2,) * 3, 3.0), Phong((0.3,) * 3, 30.0)))
     world = world_of(h.thing(h.quad()), h.thing(h.quad((0, 0, 2)), two))
     assert [lobe.bsdf.key for lobe in world.materials.lobes] == ["lambert", "phong", "phong"]
+
+
+def test_pieces_are_measured_as_all_at_once(monkeypatch):
+    """Mirrored, flat, smooth and shining meshes, one triangle without an area, one with a corner that is not finite."""
+    sphere, torn = h.icosphere(1, smooth=True), np.array([[0, 1, 0, 0, np.nan], [0, 0, 1, 0, 0], [0, 0, 0, 0, 0]])
+    rags = h.Mesh(name="rags", vertices=torn, triangles=np.array([[0, 1, 2], [0, 1, 3], [0, 1, 4]]).T)
+    glow = Material(name="glow", emission=(1.0, 2.0, 3.0))
+    objects = [
+        h.thing(h.icosphere(1), glow),
+        h.thing(rags, matrix=h.affine(np.eye(3), (3, 0, 0))),
+        h.thing(sphere, matrix=h.affine(np.diag((-1.0, 1, 1)), (0, 3, 0))),
+        h.thing(sphere, matrix=h.affine(h.rotation(1), (0, 0, 3))),
+    ]
+    whole = world_of(*objects)
+    monkeypatch.setattr(compile, "AT_ONCE", 7)
+    pieces = world_of(*objects)
+    assert whole.triangles.first_emitter < whole.triangles.first_moving == 241
+    for name in ("shape", "extent", "smooth", "corner_normals", "material"):
+        assert h.same_bits(getattr(whole.triangles, name), getattr(pieces.triangles, name))
+
+
+def test_more_vertices_than_embree_can_count_are_refused(monkeypatch):
+    monkeypatch.setattr(compile, "_starts", lambda parts: np.array([0, 2**31]))
+    with pytest.raises(SceneError, match="2147483648 vertices"):
+        world_of(h.thing(h.icosphere(1)))
