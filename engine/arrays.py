@@ -2,7 +2,7 @@
 
 A *column* holds one parameter of many records: shape (M,) for a number, (3, M) for a colour or vector. The last
 axis always counts records or lanes, so the same code serves one and a million of them. Lanes are picked with
-`take`: on (3, N) it is five times faster than indexing with a list.
+`gather` or `take`: on (3, N) they are many times faster than indexing with a list.
 """
 
 from types import SimpleNamespace
@@ -10,12 +10,20 @@ from types import SimpleNamespace
 import numpy as np
 
 
+def gather(a, lanes):
+    """The `lanes` (M,) of an array along its last axis: `take` in two thirds of the time, as no index is refused.
+
+    For indices of lanes and tables, from either end, that are known to be right; others wrap around, or never end if they are huge.
+    """
+    return a.take(lanes, axis=-1, mode="wrap")
+
+
 class Columns(SimpleNamespace):
     """A table of parameters: every attribute is an array whose last axis counts the rows. No column is called as a method is."""
 
     def take(self, lanes):
         """The rows `lanes` (M,), as a new table."""
-        return Columns(**{name: column.take(lanes, axis=-1) for name, column in vars(self).items()})
+        return Columns(**{name: gather(column, lanes) for name, column in vars(self).items()})
 
     def pick(self, lanes):
         """The rows `lanes` (M,), or the only row of a table in which one stands for all."""

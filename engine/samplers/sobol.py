@@ -10,6 +10,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from ..arrays import gather
 from ..maths.hashing import mix, mix_int, to_unit
 from ..maths.sobol import points
 from . import registry
@@ -31,7 +32,7 @@ class Sobol:
         h = mix(key ^ mix_int(dimension))
         if samples > _LONGEST_ROW:
             return to_unit(points(sample, h, 1)[0])
-        x = _table(samples)[0].take(_places(h, sample, samples))
+        x = gather(_table(samples)[0], _places(h, sample, samples))
         x ^= mix(h)
         return to_unit(x)
 
@@ -43,8 +44,8 @@ class Sobol:
         place = _places(h, sample, samples)
         x, y = _table(samples)
         pair = np.empty((2, sample.size), np.uint32)
-        x.take(place, out=pair[0], mode="clip")
-        y.take(place, out=pair[1], mode="clip")
+        x.take(place, out=pair[0], mode="wrap")
+        y.take(place, out=pair[1], mode="wrap")
         h = mix(h)
         pair[0] ^= h
         h *= np.uint32(0x9E3779B1)

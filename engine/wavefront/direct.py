@@ -4,6 +4,7 @@ import dataclasses
 
 import numpy as np
 
+from ..arrays import gather
 from ..constants import EPS32
 from ..maths.vectors import dot, length
 from .continuation import leaving
@@ -56,9 +57,9 @@ def arriving(plan, rays, surface, reflection, wi, distance, cos, L, light, film)
     # Not "L > 0": what is not a number goes to the film, which counts it.
     candidate = ~(np.maximum(np.maximum(L[0], L[1]), L[2]) <= 0) & (cos > 0)
     lanes, share = plan.unblocked(plan, *plan.shadow_rays(plan, rays, surface, reflection, wi, distance), candidate)
-    light = light.take(lanes) if np.ndim(light) else light
+    light = gather(light, lanes) if np.ndim(light) else light
     lit = plan.split_light(plan, rays, surface, reflection, wi)
-    film.add(plan, lit, lanes, L.take(lanes, axis=1) * share, light, rays.depth + 1)
+    film.add(plan, lit, lanes, gather(L, lanes) * share, light, rays.depth + 1)
 
 
 def shadow_rays_in_front(plan, rays, surface, reflection, wi, distance):

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..arrays import gather
 from ..maths import patches
 from ..maths.vectors import dot
 from ..world.texturing import TexturePoints
@@ -15,16 +16,16 @@ def add_emission(plan, rays, hits, film):
     lanes = np.nonzero((hits.prim >= world.triangles.first_emitter) & (hits.prim < world.triangles.first_moving))[0]
     if not lanes.size:
         return
-    patch = world.emitters.patch.take(hits.prim.take(lanes) - world.triangles.first_emitter)
+    patch = gather(world.emitters.patch, gather(hits.prim, lanes) - world.triangles.first_emitter)
     index = world.lights.first_patch + patch
-    L = k.radiance.take(patch, axis=1) * rays.beta.take(lanes, axis=1)
+    L = gather(k.radiance, patch) * gather(rays.beta, lanes)
     L = plan.shine(plan, rays, hits, lanes, L)
     if rays.depth:
-        cos = np.abs(dot(k.normal.take(patch, axis=1), rays.d.take(lanes, axis=1)))
-        t = hits.t.take(lanes)
-        pdf = patches.pdf(k.area.take(patch) * cos / (t * t))
+        cos = np.abs(dot(gather(k.normal, patch), gather(rays.d, lanes)))
+        t = gather(hits.t, lanes)
+        pdf = patches.pdf(gather(k.area, patch) * cos / (t * t))
         pdf *= world.lights.chance(index, rays, lanes)
-        L *= power_heuristic(rays.pdf.take(lanes), pdf)
+        L *= power_heuristic(gather(rays.pdf, lanes), pdf)
     film.add(plan, rays, lanes, L, index, rays.depth)
 
 
@@ -35,7 +36,7 @@ def even_shine(plan, rays, hits, lanes, L):
 
 def textured_shine(plan, rays, hits, lanes, L):
     """The same where emission may be textured."""
-    prim, d = hits.prim.take(lanes), rays.d.take(lanes, axis=1)
-    across = plan.footprints(plan, rays.carried.take(lanes), prim, -d, hits.t.take(lanes))
+    prim, d = gather(hits.prim, lanes), gather(rays.d, lanes)
+    across = plan.footprints(plan, rays.carried.take(lanes), prim, -d, gather(hits.t, lanes))
     view = RayView(plan, rays, hits.t.take(lanes), lanes)
     return plan.world.glow.seen(L, TexturePoints(plan.world.attributes, prim, hits.u.take(lanes), hits.v.take(lanes), view, across))

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..arrays import gather
 from .ranks import Ranks
 from .replicates import Replicates
 
@@ -54,14 +55,14 @@ class Film:
         light    the lights that it comes from, (M,) or a number: places in `world.lights`; BACKGROUND, or None: the only one
         bounces  how many surfaces have sent it on
         """
-        slot = rays.slot.take(lanes)
+        slot = gather(rays.slot, lanes)
         for row, value in zip(self.radiance, L):
             row[slot] += value
         self.record(plan, rays, lanes, L, light, bounces)
 
     def record(self, plan, rays, lanes, L, light, bounces):
         """As `add`, for the passes alone: light that the picture does not show."""
-        slot = rays.slot.take(lanes)
+        slot = gather(rays.slot, lanes)
         for p in self._parts:
             self.recorded[p.key][:, slot] += p.part(plan, rays, lanes, L, light, bounces)
 

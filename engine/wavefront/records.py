@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..arrays import Columns
+from ..arrays import Columns, gather
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -49,12 +49,12 @@ class Rays:
         """The rays `lanes` (M,) for what happens where they hit: origins and densities have done their work."""
         return Rays(
             self.o[:, :0],
-            self.d.take(lanes, axis=1),
-            self.beta.take(lanes, axis=1),
+            gather(self.d, lanes),
+            gather(self.beta, lanes),
             self.pdf[:0],
-            self.slot.take(lanes),
-            self.key.take(lanes),
-            self.sample.take(lanes),
+            gather(self.slot, lanes),
+            gather(self.key, lanes),
+            gather(self.sample, lanes),
             self.depth,
             self.split,
             self.stream,
@@ -64,13 +64,13 @@ class Rays:
     def take(self, lanes):
         """The rays `lanes` (M,)."""
         return Rays(
-            self.o.take(lanes, axis=1),
-            self.d.take(lanes, axis=1),
-            self.beta.take(lanes, axis=1),
-            self.pdf.take(lanes) if self.depth else self.pdf,
-            self.slot.take(lanes),
-            self.key.take(lanes),
-            self.sample.take(lanes),
+            gather(self.o, lanes),
+            gather(self.d, lanes),
+            gather(self.beta, lanes),
+            gather(self.pdf, lanes) if self.depth else self.pdf,
+            gather(self.slot, lanes),
+            gather(self.key, lanes),
+            gather(self.sample, lanes),
             self.depth,
             self.split,
             self.stream,

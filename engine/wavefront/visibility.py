@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..arrays import gather
 from ..world.interaction import interact
 
 _MOST_SHARE = 4
@@ -61,5 +62,5 @@ def blocked(plan, carried, o, d, limit, candidate):
         return plan.occluded(plan, carried, o, d, limit * candidate)
     lanes = np.nonzero(candidate)[0]
     blocked = np.zeros(candidate.size, bool)
-    blocked[lanes] = plan.occluded(plan, carried.take(lanes), o.take(lanes, axis=1), d.take(lanes, axis=1), limit.take(lanes))
+    blocked[lanes] = plan.occluded(plan, carried.take(lanes), gather(o, lanes), gather(d, lanes), gather(limit, lanes))
     return blocked

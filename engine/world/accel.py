@@ -16,6 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import gather
 from ..errors import AccelError
 from . import shared_buffers
 
@@ -40,7 +41,7 @@ class Hits:
 
     def take(self, lanes):
         """The hits of the rays `lanes` (M,)."""
-        return Hits(self.prim.take(lanes), self.t.take(lanes), self.u.take(lanes), self.v.take(lanes))
+        return Hits(gather(self.prim, lanes), gather(self.t, lanes), gather(self.u, lanes), gather(self.v, lanes))
 
 
 class Accel:

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import gather
 from ..errors import SceneWarning
 from ..maths.murmur import id_of
 from ..maths.tangents import corner_tangents, flat_normals
@@ -25,11 +26,11 @@ class Attribute:
 
     def is_there(self, prim):
         """Whether the meshes of triangles have it, (N,) bool."""
-        return self.row.take(prim) > 0
+        return gather(self.row, prim) > 0
 
     def at(self, prim, u, v):
         """The value (C, N) at places u, v of triangles, and its changes along u and v, (C, N) each."""
-        corner, along_u, along_v = self.corners.take(self.row.take(prim), axis=1).reshape(3, len(self.corners) // 3, -1)
+        corner, along_u, along_v = gather(self.corners, gather(self.row, prim)).reshape(3, len(self.corners) // 3, -1)
         corner += u * along_u
         corner += v * along_v
         return corner, along_u, along_v

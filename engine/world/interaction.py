@@ -4,6 +4,7 @@ from dataclasses import dataclass, field, fields
 
 import numpy as np
 
+from ..arrays import gather
 from ..constants import EPS32
 from ..maths.vectors import dot, length
 
@@ -42,7 +43,7 @@ class Surface:
 
     def take(self, lanes):
         """The points `lanes`."""
-        return Surface(*(getattr(self, f.name).take(lanes, axis=-1) for f in fields(self) if f.name != "looked"))
+        return Surface(*(gather(getattr(self, f.name), lanes) for f in fields(self) if f.name != "looked"))
 
 
 def flat_normals(triangles, prim, u, v, n, sign):
@@ -55,14 +56,14 @@ def smooth_normals(triangles, prim, u, v, n, sign):
 
     Only for the lanes on smooth triangles; the others keep the geometric normal.
     """
-    row = triangles.smooth.take(prim)
+    row = gather(triangles.smooth, prim)
     lanes = np.nonzero(row >= 0)[0]
-    corner, along_e1, along_e2 = triangles.corner_normals.take(row.take(lanes), axis=1).reshape(3, 3, -1)
-    along_e1 *= u.take(lanes)
-    along_e2 *= v.take(lanes)
+    corner, along_e1, along_e2 = gather(triangles.corner_normals, gather(row, lanes)).reshape(3, 3, -1)
+    along_e1 *= gather(u, lanes)
+    along_e2 *= gather(v, lanes)
     corner += along_e1
     corner += along_e2
-    corner *= sign.take(lanes) / np.maximum(length(corner), np.finfo(np.float32).tiny)
+    corner *= gather(sign, lanes) / np.maximum(length(corner), np.finfo(np.float32).tiny)
     ns = n.copy()
     for all_lanes, smooth_lanes in zip(ns, corner):
         all_lanes[lanes] = smooth_lanes
@@ -77,7 +78,7 @@ def interact(triangles, shading_normals, d, hits):
     """
     prim, u, v = hits.prim, hits.u, hits.v
     # From barycentric coordinates: the error stays that of the triangle, whatever the length of the ray.
-    p, e1, e2, n = triangles.shape.take(prim, axis=1).reshape(4, 3, -1)
+    p, e1, e2, n = gather(triangles.shape, prim).reshape(4, 3, -1)
     e1 *= u
     e2 *= v
     e1 += e2
@@ -86,12 +87,12 @@ def interact(triangles, shading_normals, d, hits):
     sign = np.copysign(np.float32(1), dot(n, wo))
     n *= sign
     offset = np.abs(p).max(axis=0)
-    offset += triangles.extent.take(prim)
+    offset += gather(triangles.extent, prim)
     offset *= np.float32(START_ULPS * EPS32)
     o = offset * n
     o += p
     ns = shading_normals(triangles, prim, u, v, n, sign)
-    return Surface(p, wo, n, ns, o, sign > 0, prim, triangles.material.take(prim), u, v, hits.t)
+    return Surface(p, wo, n, ns, o, sign > 0, prim, gather(triangles.material, prim), u, v, hits.t)
 
 
 def leave_in_front(surface, wi):

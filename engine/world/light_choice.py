@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import Columns
+from ..arrays import Columns, gather
 from ..constants import ONE_MINUS_EPS32
 from ..maths import discrete
 from ..maths.vectors import dot
@@ -64,15 +64,15 @@ class ByPower:
         (Shirley 1990): strata hold across the parts of a light. Of its 24 bits log2(M) are spent.
         """
         index = discrete.choose(self.cdf, u2[0])
-        probability = self.share.take(index)
-        stretched = u2[0] - self.lower.take(index)
+        probability = gather(self.share, index)
+        stretched = u2[0] - gather(self.lower, index)
         stretched /= probability
         np.clip(stretched, 0, np.float32(ONE_MINUS_EPS32), out=u2[0])
         return index, probability, u2
 
     def probability(self, index, p, n=None):
         """The probability (N,) with which `choose` at p (3, N), facing n (3, N), returns the lights `index` (N,)."""
-        return self.share.take(index)
+        return gather(self.share, index)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -177,7 +177,7 @@ def share_of(weights, index):
 
 def at(table, index):
     """table (M, N) at `index` (N,) of each lane."""
-    return table.reshape(-1).take(index * table.shape[1] + np.arange(table.shape[1]))
+    return gather(table.reshape(-1), index * table.shape[1] + np.arange(table.shape[1]))
 
 
 def parts(lanes, weights):

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import Columns
+from ..arrays import Columns, gather
 from ..constants import ONE_MINUS_EPS32
 from .light_choice import ByPower, at, parts, pick, share_of, weigh, weight_table
 from .light_tree import Tree, bounds
@@ -110,7 +110,7 @@ class ByTree:
         """See `ByPower.probability`."""
         probability = np.empty_like(p[0])
         for part in parts(p.shape[1], _TOP):
-            place = self.rank.take(index[part])
+            place = gather(self.rank, index[part])
             facing = None if n is None else n[:, part]
             node, share, _ = self._descend(p[:, part], np.zeros_like(p[0, part]), place, facing)
             probability[part] = self._mixed(place, node, share)
@@ -120,40 +120,40 @@ class ByTree:
         blind = np.nonzero(u1 < _BY_POWER)[0]
         place = np.full(u1.size, -1)
         u = (u1 - np.float32(_BY_POWER)) * np.float32(1 / (1 - _BY_POWER))
-        blind_u = u1.take(blind) * np.float32(1 / _BY_POWER)
+        blind_u = gather(u1, blind) * np.float32(1 / _BY_POWER)
         place[blind] = np.searchsorted(self.by_power.cdf, blind_u, side="right")
         node, share, u = self._descend(p, u, place, n)
         # Within the node by power, in float64: single lights may have the last few bits of the distribution.
-        u = self.low.take(node) + u * self.total.take(node)
+        u = gather(self.low, node) + u * gather(self.total, node)
         u[blind] = blind_u
         found = np.searchsorted(self.by_power.cdf, u, side="right")
-        found[blind] = place.take(blind)
-        u -= self.by_power.lower.take(found)
-        u /= self.by_power.share.take(found)
-        return self.order.take(found), self._mixed(found, node, share), np.clip(u, 0, ONE_MINUS_EPS32)
+        found[blind] = gather(place, blind)
+        u -= gather(self.by_power.lower, found)
+        u /= gather(self.by_power.share, found)
+        return gather(self.order, found), self._mixed(found, node, share), np.clip(u, 0, ONE_MINUS_EPS32)
 
     def _mixed(self, place, node, share):
         """The probability of the lights at `place` of the order, below a `node` that is chosen with probability `share`."""
-        by_power = self.by_power.share.take(place)
-        by_place = share * (by_power / self.total.take(node).astype(np.float32))
+        by_power = gather(self.by_power.share, place)
+        by_place = share * (by_power / gather(self.total, node).astype(np.float32))
         return np.float32(_BY_POWER) * by_power + np.float32(1 - _BY_POWER) * by_place
 
     def _descend(self, p, u, place, n):
         """The last node (N,), its probability and what is left of u (N,): towards the lights at `place` (N,), -1: as u chooses."""
         weights, distance2 = weigh(self.top, p, n)
-        chosen, probability, u = _follow(weights, u, place, self.first_choice.take(place))
-        node = self.top_nodes.take(chosen)
-        lanes = np.nonzero(at(distance2, chosen) < self.reach2.take(node))[0]
+        chosen, probability, u = _follow(weights, u, place, gather(self.first_choice, place))
+        node = gather(self.top_nodes, chosen)
+        lanes = np.nonzero(at(distance2, chosen) < gather(self.reach2, node))[0]
         level = 0
         while lanes.size:
-            row = self.row.take(node.take(lanes))
-            facing = None if n is None else n.take(lanes, axis=1)
-            weights, distance2 = weigh(self.table.take(row), p.take(lanes, axis=1), facing)
-            towards = place.take(lanes)
-            chosen, share, u[lanes] = _follow(weights, u.take(lanes), towards, (self.trail.take(towards) >> level) & (WIDTH - 1))
+            row = gather(self.row, gather(node, lanes))
+            facing = None if n is None else gather(n, lanes)
+            weights, distance2 = weigh(self.table.take(row), gather(p, lanes), facing)
+            towards = gather(place, lanes)
+            chosen, share, u[lanes] = _follow(weights, gather(u, lanes), towards, (gather(self.trail, towards) >> level) & (WIDTH - 1))
             probability[lanes] *= share
-            node[lanes] = deeper = self.children.reshape(-1).take(chosen * self.children.shape[1] + row)
-            lanes = lanes[at(distance2, chosen) < self.reach2.take(deeper)]
+            node[lanes] = deeper = gather(self.children.reshape(-1), chosen * self.children.shape[1] + row)
+            lanes = lanes[at(distance2, chosen) < gather(self.reach2, deeper)]
             level += 2
         return node, probability, u
 
@@ -164,8 +164,8 @@ def _follow(weights, u, place, way):
     if known.size == place.size:
         return way, share_of(weights, way), u
     chosen, probability, u = pick(weights, u)
-    chosen[known] = way.take(known)
-    probability[known] = share_of(weights[:, known], chosen.take(known))
+    chosen[known] = gather(way, known)
+    probability[known] = share_of(weights[:, known], gather(chosen, known))
     return chosen, probability, u
 
 

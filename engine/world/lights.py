@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..arrays import Columns, columns
+from ..arrays import Columns, columns, gather
 from ..constants import LUMINANCE
 from ..lights.parallelogram import ParallelogramLight
 from ..lights.triangle import TriangleLight
@@ -142,7 +142,7 @@ class Lights:
     def chance(self, index, rays, lanes):
         """The probability (M,) with which shadow rays from where `rays` came from are sent to lights `index` (M,), for `lanes` (M,)."""
         facing = rays.facing
-        return self.choice.probability(index, rays.o.take(lanes, axis=1), facing if facing is None else facing.take(lanes, axis=1))
+        return self.choice.probability(index, gather(rays.o, lanes), facing if facing is None else gather(facing, lanes))
 
     def rival(self, index, pdf):
         """The density with which scattered rays look for lights `index`, where they are sent with the density `pdf` (N,)."""
@@ -185,8 +185,8 @@ class Lights:
             lanes = np.nonzero((index >= group.first) & (index < group.first + group.count))[0]
             if not lanes.size:
                 continue
-            row, when = index.take(lanes) - group.first, None if time is None else time.take(lanes)
-            sampled = sample(group, row, p.take(lanes, axis=1), u2.take(lanes, axis=1), when)
+            row, when = gather(index, lanes) - group.first, None if time is None else gather(time, lanes)
+            sampled = sample(group, row, gather(p, lanes), gather(u2, lanes), when)
             wi[:, lanes], distance[lanes], E[:, lanes], pdf[lanes] = sampled
         return wi, distance, E, pdf
 

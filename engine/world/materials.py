@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..arrays import Columns, columns
+from ..arrays import Columns, columns, gather
 from ..constants import INV_PI
 from ..interfaces import is_straight
 from ..maths.frames import to_world
@@ -136,7 +136,7 @@ class Materials:
             lobes = [Lobe(lobe.bsdf, lobe.k.take(surface.material)) for lobe in lobes]
         thresholds, shares = self.thresholds, self.shares
         if len(lobes) > 1 and self.emission.shape[1] > 1:
-            thresholds, shares = (a.take(surface.material, axis=1) for a in (thresholds, shares))
+            thresholds, shares = (gather(a, surface.material) for a in (thresholds, shares))
         return self.kind(tuple(lobes[: self.rough_lobes]), tuple(lobes[self.rough_lobes :]), thresholds, shares)
 
 
@@ -296,7 +296,7 @@ class Reflection:
         wi = np.zeros_like(wo)
         for i, lobe in enumerate(self.rough):
             lanes = self._chosen(i, u1, u2)
-            wi[:, lanes] = lobe.bsdf.sample(lobe.k.pick(lanes), n.take(lanes, axis=1), wo.take(lanes, axis=1), u2.take(lanes, axis=1))
+            wi[:, lanes] = lobe.bsdf.sample(lobe.k.pick(lanes), gather(n, lanes), gather(wo, lanes), gather(u2, lanes))
         return wi
 
     _uniform_pdf = 0.5 * INV_PI
@@ -363,13 +363,13 @@ def _all(branches):
 
 def _single(scatter, u1):
     """A lobe's `scatter` as if it were its `branches`: the one direction that u1 (N,) chooses."""
-    return lambda k, n, wo, is_front, lanes: (scatter(k, n, wo, is_front, u1.take(lanes)),)
+    return lambda k, n, wo, is_front, lanes: (scatter(k, n, wo, is_front, gather(u1, lanes)),)
 
 
 def _at_surface(branches, k, surface, lanes):
     """The branches (wi, weight) of a specular lobe, `k` a row for each point of `surface` or one for all, at its points `lanes`."""
-    n, ns, wo = (a.take(lanes, axis=1) for a in (surface.n, surface.ns, surface.wo))
-    is_front = surface.is_front.take(lanes)
+    n, ns, wo = (gather(a, lanes) for a in (surface.n, surface.ns, surface.wo))
+    is_front = gather(surface.is_front, lanes)
     for i, (wi, weight) in enumerate(branches(k.pick(lanes), ns, wo, is_front, lanes)):
         # Where the shading normal is turned away, or would send reflected light through the surface or refracted light
         # back, the geometric one decides: specular light has no other way to go, and would be lost.
