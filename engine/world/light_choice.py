@@ -1,6 +1,7 @@
 """Which light a shadow ray is sent to, where there are none to choose from or few; for many see `light_tree_choice`."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -117,11 +118,12 @@ def weight_table(lights, size2, shape):
     table = {
         "centre": lights.centre,
         "power": lights.power / lights.power.max(),
-        "nearness": lights.nearness,
-        "radius2": lights.radius2,
+        "radius2": lights.radius2 + np.finfo(np.float32).tiny,
         # What is the same everywhere is on all sides.
-        "size": np.where(lights.nearness > 0, np.sqrt(size2), _EVERYWHERE),
+        "size": np.where(lights.nearness > 0, np.maximum(np.sqrt(size2), np.finfo(np.float32).tiny), _EVERYWHERE),
     }
+    if (lights.nearness != 1).any():
+        table["nearness"] = lights.nearness
     if (lights.cos_edge > -1).any():
         table |= {
             "axis": lights.axis,
@@ -140,8 +142,7 @@ def weigh(k, p, n=None):
     """
     away = p[:, None] - k.centre
     distance2 = dot(away, away)
-    weights = k.nearness * distance2
-    weights += k.radius2 + np.finfo(np.float32).tiny
+    weights = (k.nearness * distance2 if hasattr(k, "nearness") else distance2) + k.radius2
     np.divide(k.power, weights, out=weights)
     if hasattr(k, "axis"):
         # Cosine and sine of both angles' sum, times the distance; the other leg of the triangle that size and distance make.
@@ -153,20 +154,33 @@ def weigh(k, p, n=None):
         weights *= np.float32(_DARK) + np.float32(1 - _DARK) * is_lit
     if n is not None:
         share = k.size - dot(away, n[:, None])
-        share /= np.sqrt(distance2) + (k.size + np.finfo(np.float32).tiny)
+        share /= np.sqrt(distance2) + k.size
         weights *= np.maximum(share, np.float32(_DARK), out=share)
     return weights, distance2
 
 
-def pick(weights, u1):
-    """One of M weights (M, N) for each u1 (N,): indices (N,), their probabilities, and the places of u1 within them."""
-    edges = np.cumsum(weights, axis=0)
+def pick(weights, u1, known=None, way=None):
+    """One of M weights (M, N) for each u1 (N,): indices (N,), their probabilities, and the places of u1 within them.
+
+    For the lanes `known` (K,), if any, `way` (K,) are the indices, whatever u1 says, and the places mean nothing.
+    """
+    edges = _added_up(weights)
     place = u1 * edges[-1]
     index = (place >= edges[:-1]).view(np.int8).sum(axis=0, dtype=np.int8).astype(np.intp)
+    if known is not None:
+        index[known] = way
     weight = at(weights, index)
     place -= at(edges, index) - weight
     place /= weight
     return index, weight / edges[-1], np.clip(place, 0, np.float32(ONE_MINUS_EPS32), out=place)
+
+
+def _added_up(weights):
+    """Each of M weights (M, N) and all before it, (M, N). Row by row: `np.cumsum` goes through the lanes one by one."""
+    sums = weights.copy()
+    for below, row in pairwise(sums):
+        row += below
+    return sums
 
 
 def share_of(weights, index):

@@ -6,6 +6,7 @@ import numpy as np
 
 from ..arrays import Columns, gather
 from ..constants import ONE_MINUS_EPS32
+from ..maths import discrete
 from .light_choice import ByPower, at, parts, pick, share_of, weigh, weight_table
 from .light_tree import Tree, bounds
 
@@ -29,6 +30,7 @@ class ByTree:
     """In proportion to power over squared distance, as far as groups show it.
 
     by_power        the choice that ignores the place, over the lights in the order of the tree
+    guide           of that distribution
     order, rank     (M,) the light at each place of the order, and the place of each light
     top             what the nodes weigh that are weighed first, see `light_choice.weigh`: (C, 1)
     top_nodes       (C,) these nodes
@@ -44,6 +46,7 @@ class ByTree:
     minds_side = True
 
     by_power: ByPower
+    guide: discrete.Guide
     order: np.ndarray
     rank: np.ndarray
     top: Columns
@@ -84,6 +87,7 @@ class ByTree:
         reach2[is_leaf] = 0
         return cls(
             by_power=by_power,
+            guide=discrete.Guide.of(by_power.cdf),
             order=tree.order,
             rank=np.argsort(tree.order),
             top=Columns(**{name: column[..., None] for name, column in vars(everything.take(top_nodes)).items()}),
@@ -121,12 +125,12 @@ class ByTree:
         place = np.full(u1.size, -1)
         u = (u1 - np.float32(_BY_POWER)) * np.float32(1 / (1 - _BY_POWER))
         blind_u = gather(u1, blind) * np.float32(1 / _BY_POWER)
-        place[blind] = np.searchsorted(self.by_power.cdf, blind_u, side="right")
+        place[blind] = self.guide.choose(blind_u)
         node, share, u = self._descend(p, u, place, n)
         # Within the node by power, in float64: single lights may have the last few bits of the distribution.
         u = gather(self.low, node) + u * gather(self.total, node)
         u[blind] = blind_u
-        found = np.searchsorted(self.by_power.cdf, u, side="right")
+        found = self.guide.choose(u)
         found[blind] = gather(place, blind)
         u -= gather(self.by_power.lower, found)
         u /= gather(self.by_power.share, found)
@@ -163,10 +167,7 @@ def _follow(weights, u, place, way):
     known = np.nonzero(place >= 0)[0]
     if known.size == place.size:
         return way, share_of(weights, way), u
-    chosen, probability, u = pick(weights, u)
-    chosen[known] = gather(way, known)
-    probability[known] = share_of(weights[:, known], gather(chosen, known))
-    return chosen, probability, u
+    return pick(weights, u, known, gather(way, known))
 
 
 def _top(tree, size):

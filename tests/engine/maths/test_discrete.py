@@ -1,5 +1,7 @@
 """Choosing in proportion to weights (catalogue B9)."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -70,3 +72,23 @@ def test_few_and_many_choices_are_made_alike(monkeypatch):
     counted = discrete.choose(cdf, u)
     monkeypatch.setattr(discrete, "_FEW", 0)
     assert (discrete.choose(cdf, u) == counted).all()
+
+
+GUIDED = WEIGHTS | {"one outshines the others": [1e-6] * 300 + [1.0] + [1e-6] * 300, "alike": [1.0] * 1000}
+
+
+@pytest.mark.parametrize("name", GUIDED)
+def test_a_guide_leads_where_a_search_ends(name):
+    """At both sides of every edge, and in between; to the bit."""
+    cdf = discrete.cumulative(GUIDED[name])
+    edges = np.concatenate((cdf, np.nextafter(cdf, 0), [0.0], np.random.default_rng(3).random(5000)))
+    u = edges[edges < 1]
+    assert np.array_equal(discrete.Guide.of(cdf).choose(u), np.searchsorted(cdf, u, side="right"))
+
+
+def test_a_guide_with_a_step_too_few_is_caught():
+    cdf = discrete.cumulative([1.0] * 1000)
+    right = discrete.Guide.of(cdf)
+    u = np.random.default_rng(3).random(5000)
+    assert 0 < right.steps <= 2
+    assert not np.array_equal(dataclasses.replace(right, steps=right.steps - 1).choose(u), right.choose(u))
