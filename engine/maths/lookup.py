@@ -246,6 +246,9 @@ def _existing(i, n, extension, weight):
     if extension == "clip":
         weight = weight * ((i >= 0) & (i < n))
     elif extension == "repeat":
+        if np.ndim(n) == 0 and n & (n - 1) == 0:
+            # Of a power of two the last digits are what is left, below 0 as well.
+            return i & (n - 1), weight
         # Twice: of a single texel there are three copies in reach.
         for _ in range(2):
             i = i + n * (i < 0)

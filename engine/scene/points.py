@@ -192,6 +192,7 @@ class Probes(OnPlane):
         return Probes(a[:2, 0])
 
 
+_UNMOVED = tuple(map(tuple, np.eye(4).tolist()))
 _averages = weakref.WeakKeyDictionary()
 
 
@@ -218,6 +219,8 @@ def _columns(a, n):
 
 def _affine(matrix, p, w):
     """The rows of `matrix` times (p, w). Term by term, as what a product of matrices rounds depends on the number of lanes."""
+    if matrix == _UNMOVED:
+        return p
     result = np.empty_like(p)
     for row, total in zip(matrix, result):
         total[...] = w * row[3]

@@ -17,8 +17,9 @@ def filled_in(materials, reflection, count, met):
     pass straight on, and are chosen by what they reflect.
     """
     lobes = [*reflection.rough, *reflection.specular]
-    # Where there is but one lobe, the table has no shares by lane.
-    own, shares = {}, np.array(np.broadcast_to(reflection.shares if len(lobes) > 1 else np.float32(1), (len(lobes), count)))
+    own, shares = {}, np.ones((1, 1), np.float32)
+    if len(lobes) > 1:
+        shares = np.array(np.broadcast_to(reflection.shares, (len(lobes), count)))
     for row, lanes, at in met:
         for t in materials.textured[row]:
             if t.lobe not in own:
@@ -27,7 +28,7 @@ def filled_in(materials, reflection, count, met):
         tables = [own.get(i, lobe.k).pick(lanes) for i, lobe in enumerate(lobes)]
         albedos = [lobe.bsdf.albedo(k) for lobe, k in zip(lobes, tables)]
         rest = 1 - sum(np.minimum(clean(at.value(passed)), 1) for passed in materials.straight[row])
-        for i, albedo in enumerate(albedos):
+        for i, albedo in enumerate(albedos) if len(lobes) > 1 else ():
             shares[i, lanes] = luminance(albedo)
         _limit(lobes, own, count, lanes, rest, sum(albedos))
     for i, k in own.items():
@@ -37,7 +38,10 @@ def filled_in(materials, reflection, count, met):
 
 def _limit(lobes, own, count, lanes, rest, total):
     """Darken all `lobes` at the points `lanes` where their albedo `total` (3, M or 1) is more than the `rest` of light."""
-    factor = np.where(total > rest, np.maximum(rest, 0) / total, np.float32(1)).min(axis=0)
+    is_over = total > rest
+    if not is_over.any():
+        return
+    factor = np.where(is_over, np.maximum(rest, 0) / total, np.float32(1)).min(axis=0)
     factor = np.broadcast_to(factor, lanes.shape)
     over = np.nonzero(factor < 1)[0]
     if not over.size:
