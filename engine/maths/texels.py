@@ -14,10 +14,12 @@ class Texels:
 
     rows     (H + 1,) float32
     columns  (H, W + 1) float32, within each row
+    shares   (H * W,) float32: the probability with which `choose` returns each texel, exactly
     """
 
     rows: np.ndarray
     columns: np.ndarray
+    shares: np.ndarray
 
     @classmethod
     def of(cls, weights, shape):
@@ -34,7 +36,10 @@ class Texels:
             part = np.where(row_sums[:, None] > 0, part, 1)
             columns[len(sums) : len(sums) + len(part), 1:] = discrete.cumulative(part)
             sums.extend(row_sums)
-        return cls(np.append(0, discrete.cumulative(sums)).astype(np.float32), columns)
+        rows = np.append(0, discrete.cumulative(sums)).astype(np.float32)
+        shares = np.diff(columns)
+        shares *= np.diff(rows)[:, None]
+        return cls(rows, columns, shares.ravel())
 
     def choose(self, u2):
         """Texels (row, column) (N,) for u2 (2, N), and a new u2 (2, N): the place of each number within its interval."""
@@ -43,20 +48,15 @@ class Texels:
         columns = self.columns.reshape(-1)
         # Each lane has a row of its own to search: all halve their intervals together.
         start = row * (width + 1)
-        column = np.zeros_like(row)
+        end = start + width
+        place = start.copy()
         step = 1 << (width - 1).bit_length() >> 1
         while step:
-            onwards = np.minimum(column + step, width)
-            column += step * (columns.take(start + onwards) <= u2[0])
+            onwards = place + step
+            np.minimum(onwards, end, out=onwards)
+            place += step * (columns.take(onwards, mode="clip") <= u2[0])
             step >>= 1
-        start += column
-        return row, column, np.stack((_place(columns, start, u2[0]), _place(self.rows, row, u2[1])))
-
-    def probability(self, row, column):
-        """The probability (N,) with which `choose` returns the texels (row, column), exactly."""
-        at = row * self.columns.shape[1] + column
-        columns = self.columns.reshape(-1)
-        return (self.rows.take(row + 1) - self.rows.take(row)) * (columns.take(at + 1) - columns.take(at))
+        return row, place - start, np.stack((_place(columns, place, u2[0]), _place(self.rows, row, u2[1])))
 
 
 def _place(cdf, at, u1):

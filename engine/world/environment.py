@@ -101,9 +101,13 @@ class Environment:
         """L (3, N) at u, v, and if `weighed` the interpolated probability of a texel (N,)."""
         L, probability = 0, 0
         for row, column, weight in self.look(u, v, self.shape):
-            L = L + self.pixels.take(row * self.shape[1] + column, axis=1) * weight
+            texel = row * self.shape[1]
+            texel += column
+            part = self.pixels.take(texel, axis=1, mode="clip")
+            part *= weight
+            L = L + part
             if weighed:
-                probability = probability + self.texels.probability(row, column) * weight
+                probability = probability + self.texels.shares.take(texel, mode="clip") * weight
         L *= self.strength
         L += self.background
         return L, probability
