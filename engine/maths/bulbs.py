@@ -3,7 +3,8 @@
 facing disk  a disk of radius r through the centre that always faces p: radiance I / (pi r^2), irradiance I / (d^2 + r^2)
 ball         a sphere of radius r with radiance I / (pi r^2), irradiance I / d^2; sampled by its cone of directions
 
-Both pass into the plain point, pdf = inf and E = I / d^2, as r -> 0, so a radius of 0 needs no case of its own.
+Both pass into the plain point, pdf = inf and E = I / d^2, as r -> 0, so a radius of 0 needs no case of its own;
+where all have none there is nothing to sample.
 """
 
 import numpy as np
@@ -56,6 +57,8 @@ def power(light):
 def sample(k, p, u2):
     """See `interfaces.Light.sample`."""
     to_centre = k.position - p
+    if not k.radius.any():
+        return _to_points(k, to_centre)
     disk = _sample_disk(k, to_centre, u2)
     if k.soft.all():
         return disk
@@ -82,6 +85,13 @@ def seen(k, p, d, distance):
     # Who is without a size has no side but that from which it is seen.
     n = np.where(k.radius > 0, n, -d)
     return place, n, around(k, n)
+
+
+def _to_points(k, to_centre):
+    distance2 = dot(to_centre, to_centre)
+    distance = np.sqrt(distance2)
+    to_centre /= _positive(distance)
+    return to_centre, distance, k.intensity * (1 / _positive(distance2)), np.full_like(distance, np.inf)
 
 
 def _sample_disk(k, to_centre, u2):
