@@ -57,12 +57,12 @@ class Film:
         """
         slot = gather(rays.slot, lanes)
         for row, value in zip(self.radiance, L):
-            row[slot] += value
+            row[slot] = gather(row, slot) + value
         self.record(plan, rays, lanes, L, light, bounces)
 
     def record(self, plan, rays, lanes, L, light, bounces):
         """As `add`, for the passes alone: light that the picture does not show."""
-        slot = gather(rays.slot, lanes)
+        slot = gather(rays.slot, lanes) if self._parts else ()
         for p in self._parts:
             self.recorded[p.key][:, slot] += p.part(plan, rays, lanes, L, light, bounces)
 
