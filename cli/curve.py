@@ -74,41 +74,41 @@ def small(width, height):
     return max(1, round(width * scale)), max(1, round(height * scale))
 
 
+@dataclass(frozen=True)
+class Reference:
+    """What pictures are measured against: `truth` (H, W, 3), and its standard error `doubt`, of the same shape; float64."""
+
+    truth: np.ndarray
+    doubt: np.ndarray
+
+
 def measure(scene, settings, integrators, samplers, depths, samples, on_progress):
     """[Rung] of all combinations, in this order, for the rest of `settings`; `on_progress` is called with the share done, in [0, 1].
 
     Raises SceneError for what cannot be rendered.
     """
-    plain = replace(
-        settings, passes=("Combined",), sample_range=(), adaptive_threshold=0.0, replicates=1, error_target=0.0, time_limit=0.0
-    )
     ladder = [
-        replace(plain, integrator=integrator, sampler=sampler, max_depth=depth, samples=count)
+        replace(plain(settings), integrator=integrator, sampler=sampler, max_depth=depth, samples=count)
         for integrator, sampler, depth, count in product(integrators, samplers, depths, samples)
     ]
     for asked in ladder:
         # Before the work, not after it.
         validate(scene, asked)
-    whole = sum(asked.samples for asked in ladder) * SEEDS + LONGER * max(samples)
+    longest = LONGER * max(samples)
+    whole = sum(asked.samples for asked in ladder) * SEEDS + longest
     done = 0
 
     def advance(share, count):
         on_progress((done + share * count) / whole)
 
-    deepest = replace(plain, integrator="path", sampler="sobol", max_depth=max(*depths, settings.max_depth), seed=REFERENCE_SEED)
-    count = LONGER * max(samples)
-    asked = replace(deepest, samples=count, replicates=REPLICATES, passes=("Combined", "Standard Error"))
-    passes, _, _ = _render(scene, asked, lambda share: advance(share, count))
-    done += count
-    truth, doubt = passes["Combined"][..., :3], passes["Standard Error"]
-    if not truth.mean() > 0:
-        raise SceneError(f"scene '{scene.name}' is black: there is no error relative to its mean; is there any light?")
+    against = reference(scene, settings, max(*depths, settings.max_depth), longest, lambda share: advance(share, longest))
+    done += longest
     rungs = []
     for asked in ladder:
         found = []
         for seed in range(SEEDS):
             seeded = replace(asked, seed=settings.seed + seed)
-            found.append(_render(scene, seeded, lambda share, count=asked.samples: advance(share, count)))
+            found.append(rendered(scene, seeded, lambda share, count=asked.samples: advance(share, count)))
             done += asked.samples
         pictures = np.stack([passes["Combined"][..., :3] for passes, _, _ in found]).astype(np.float64)
         rungs.append(
@@ -119,11 +119,27 @@ def measure(scene, settings, integrators, samplers, depths, samples, on_progress
                 asked.samples,
                 seconds=float(np.median([seconds for _, seconds, _ in found])),
                 prepared=float(np.median([prepared for _, _, prepared in found])),
-                flip=_flip(truth, pictures),
-                **errors(pictures, truth.astype(np.float64), doubt.astype(np.float64)),
+                flip=_flip(against.truth, pictures),
+                **errors(pictures, against.truth, against.doubt),
             )
         )
     return _ranked(rungs)
+
+
+def plain(settings):
+    """The same settings for the picture alone, with a number of samples that is known beforehand and the same in all pixels."""
+    return replace(settings, passes=("Combined",), sample_range=(), adaptive_threshold=0.0, replicates=1, error_target=0.0, time_limit=0.0)
+
+
+def reference(scene, settings, max_depth, samples, on_progress):
+    """The `Reference` by path tracing of up to `max_depth` bounces, for the rest of `settings`. Raises SceneError for a black one."""
+    deepest = replace(plain(settings), integrator="path", sampler="sobol", max_depth=max_depth, samples=samples, seed=REFERENCE_SEED)
+    asked = replace(deepest, replicates=REPLICATES, passes=("Combined", "Standard Error"))
+    passes, _, _ = rendered(scene, asked, on_progress)
+    truth, doubt = passes["Combined"][..., :3], passes["Standard Error"]
+    if not truth.mean() > 0:
+        raise SceneError(f"scene '{scene.name}' is black: there is no error relative to its mean; is there any light?")
+    return Reference(truth.astype(np.float64), doubt.astype(np.float64))
 
 
 def errors(pictures, truth, doubt):
@@ -145,13 +161,13 @@ def errors(pictures, truth, doubt):
     }
 
 
-def _render(scene, settings, on_progress):
-    """({pass: (H, W, C)}, seconds of rendering, seconds of compiling)."""
-    began = time.perf_counter()
+def rendered(scene, settings, on_progress, clock=time.perf_counter):
+    """({pass: (H, W, C)}, seconds of rendering, seconds of compiling) by a `clock`."""
+    began = clock()
     plan, _ = prepare(scene, settings)
-    prepared = time.perf_counter()
+    prepared = clock()
     passes, _, _ = gathered(render_plan(plan), settings, lambda progress: on_progress(progress.done))
-    return passes, time.perf_counter() - prepared, prepared - began
+    return passes, clock() - prepared, prepared - began
 
 
 def _flip(truth, pictures):

@@ -100,7 +100,7 @@ def test_without_libraries_there_is_a_table_and_a_cure(tmp_path, capsys, monkeyp
 )
 def test_what_is_wrong_is_said_before_the_reference_is_rendered(words, said, tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(curve, "_render", None)
+    monkeypatch.setattr(curve, "rendered", None)
     write_scene("a.glanz", lit(), h.settings())
     assert main(["bench", "a.glanz", *words]) != 0
     assert said in capsys.readouterr().err
