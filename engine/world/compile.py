@@ -169,6 +169,15 @@ def compile_world(
     if keep.size < owner.size or (np.diff(keep) != 1).any():
         shape, extent, indices = (values.take(keep, axis=-1) for values in (shape, extent, indices))
         material, owner = material.take(keep), owner.take(keep)
+    first_emitter, first_moving = np.count_nonzero(rank < 1), np.count_nonzero(rank < _MOVES)
+    try:
+        at_rest = vertices, indices[:, :first_moving]
+        accel = before.accel if before and before.accel.is_of(*at_rest) else Accel(*at_rest)
+        movers = _movers(moving, parts, frame, vertices, indices, keep) if moving else None
+        whole = Sight(accel, None, movers)
+        sights = Sights.of(scene, owner[:first_moving], at_rest, whole, [i for i, _ in changing]) if has_sights else None
+    except AccelError as error:
+        raise SceneError(f"scene '{scene.name}': {error}") from error
     column, corner_normals = _smooth(parts, keep, shape[9:]) if smooth else (np.zeros(0, np.intp), np.zeros((9, 0), np.float32))
     triangles = Triangles(
         shape=shape,
@@ -176,17 +185,9 @@ def compile_world(
         smooth=column,
         corner_normals=corner_normals,
         material=material,
-        first_emitter=np.count_nonzero(rank < 1),
-        first_moving=np.count_nonzero(rank < _MOVES),
+        first_emitter=first_emitter,
+        first_moving=first_moving,
     )
-    try:
-        at_rest = vertices, indices[:, : triangles.first_moving]
-        accel = before.accel if before and before.accel.is_of(*at_rest) else Accel(*at_rest)
-        movers = _movers(moving, parts, frame, vertices, indices, keep) if moving else None
-        whole = Sight(accel, None, movers)
-        sights = Sights.of(scene, owner[: triangles.first_moving], at_rest, whole, [i for i, _ in changing]) if has_sights else None
-    except AccelError as error:
-        raise SceneError(f"scene '{scene.name}': {error}") from error
     last = slice(triangles.first_emitter, triangles.first_moving)
     emitters = Emitters.of(
         vertices,
@@ -265,7 +266,7 @@ def _merge(still, moving, origin):
     # Rounded once; from here on the rounded values are the geometry, for Embree and for everything else.
     local = [frame.scale * part.vertices for m in moving for part in m.parts]
     vertices = _concatenate([values.astype(np.float32) for values in (frame.points(world), *local)], (3, 0), np.float32)
-    indices = _concatenate([part.triangles + np.int32(start) for part, start in zip(parts, _starts(parts))], (3, 0), np.int32)
+    indices = _joined([part.triangles for part in parts], _starts(parts))
     return frame, vertices, indices, radius
 
 
@@ -311,8 +312,9 @@ def _measure(vertices, indices):
 
 def _smooth(parts, keep, flat):
     """`Triangles.smooth` and `.corner_normals`; corners whose normal has no direction take the geometric one."""
-    given = _concatenate([part.corner_normals for part in parts], (9, 0), np.float32)
-    is_smooth = _concatenate([np.full(part.owner.size, part.corner_normals.shape[1] > 0) for part in parts], 0, bool)
+    normals = _concatenate([part.normals for part in parts], (3, 0), np.float32)
+    indices = _joined([part.normal_indices for part in parts], np.cumsum([0] + [part.normals.shape[1] for part in parts]))
+    is_smooth = _concatenate([np.full(part.owner.size, part.normal_indices.shape[1] > 0) for part in parts], 0, bool)
     column = np.cumsum(is_smooth, dtype=np.intp)
     column -= 1
     column[~is_smooth] = -1
@@ -321,18 +323,24 @@ def _smooth(parts, keep, flat):
     result = np.empty((9, kept.size), np.float32)
     for start in range(0, kept.size, AT_ONCE):
         here = kept[start : start + AT_ONCE]
-        corners, normal = given.take(column[here], axis=1), flat.take(here, axis=1)
-        for corner in (corners[0:3], corners[3:6], corners[6:9]):
+        normal = flat.take(here, axis=1)
+        corners = normals.take(indices.take(column[here], axis=1), axis=1).transpose(1, 0, 2)
+        for corner in corners:
             cos = dot(corner, normal)
             # Not NaN, not zero, and on the side of the geometric normal, whose sign decides for both.
             corner *= np.copysign(1, cos).astype(np.float32)
             lacking = ~(np.abs(cos) > 0)
             corner[:, lacking] = normal[:, lacking]
-        corners[3:6] -= corners[0:3]
-        corners[6:9] -= corners[0:3]
-        result[:, start : start + AT_ONCE] = corners
+        corners[1:] -= corners[0]
+        result[:, start : start + AT_ONCE] = corners.reshape(9, -1)
     column[kept] = np.arange(kept.size)
     return column, result
+
+
+def _joined(indices, starts):
+    """Indices (3, F) of several parts as one; each begins at its own of `starts`, which end with how many there are of what they count."""
+    dtype = np.int32 if starts[-1] < 2**31 else np.int64
+    return _concatenate([values + dtype(start) if start else values for values, start in zip(indices, starts)], (3, 0), dtype)
 
 
 def _concatenate(arrays, empty, dtype):

@@ -14,7 +14,8 @@ class Part:
 
     vertices        (3, V) float64 [m]
     triangles       (3, F) int32, into these vertices; counter-clockwise also where an object is mirrored
-    corner_normals  (9, F) float32, world space, unit; (9, 0): flat, or not wanted
+    normals         (3, K) float32, world space, unit; (3, 0): flat, or not wanted
+    normal_indices  (3, F) which of them each corner of each triangle takes; (3, 0) without
     material        (F,) intp, rows of the materials
     owner           (F,) int32, the object's place in the scene
     mesh            the mesh that they share
@@ -23,7 +24,8 @@ class Part:
 
     vertices: np.ndarray
     triangles: np.ndarray
-    corner_normals: np.ndarray
+    normals: np.ndarray
+    normal_indices: np.ndarray
     material: np.ndarray
     owner: np.ndarray
     mesh: object
@@ -44,26 +46,24 @@ def place(numbered, row, smooth):
 
 def _place_instances(instances, row, smooth):
     mesh = instances[0][1].mesh
-    count, faces, points = len(instances), mesh.triangles.shape[1], mesh.vertices.shape[1]
+    faces, points = mesh.triangles.shape[1], mesh.vertices.shape[1]
     matrix = np.stack([o.world_from_object for _, o in instances])
     vertices = matrix[:, :3, :3] @ mesh.vertices.astype(np.float64) + matrix[:, :3, 3:]
     mirrored = flips_orientation(matrix)
     triangles = _corners(mesh.triangles, mirrored, points)
     rows = [_material_rows(o, row) for _, o in instances]
-    corner_normals = np.zeros((9, 0), np.float32)
+    normals, normal_indices = np.zeros((3, 0), np.float32), np.zeros((3, 0), np.int32)
     if smooth and mesh.is_smooth:
         normals = (cofactors(matrix) @ mesh.normals.astype(np.float64)).transpose(1, 0, 2)
         norm = length(normals)
         normals /= np.where(norm > 0, norm, 1)
-        indices = _corners(mesh.normal_indices, mirrored, mesh.normals.shape[1]).reshape(3, -1)
-        corner_normals = np.empty((9, faces * count), np.float32)
-        corners = normals.reshape(3, -1).astype(np.float32)
-        for corner, index in enumerate(indices):
-            corners.take(index, axis=1, out=corner_normals[3 * corner : 3 * corner + 3], mode="clip")
+        normals = normals.reshape(3, -1).astype(np.float32)
+        normal_indices = _corners(mesh.normal_indices, mirrored, mesh.normals.shape[1]).reshape(3, -1)
     return Part(
         vertices=vertices.transpose(1, 0, 2).reshape(3, -1),
         triangles=triangles.reshape(3, -1),
-        corner_normals=corner_normals,
+        normals=normals,
+        normal_indices=normal_indices,
         material=np.concatenate(rows),
         owner=np.repeat(np.array([place_in_scene for place_in_scene, _ in instances], np.int32), faces),
         mesh=mesh,
