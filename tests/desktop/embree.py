@@ -28,6 +28,10 @@ def main():
             assert path.startswith(f"{own.resolve()}/"), f"{function} is bound to {path}"
         print(f"measured: {len(bound)} functions of Embree in {Path(module.__file__).name.partition('.')[0]} are the wheel's own")
     assert {"rtcNewScene", "rtcIntersect1"} <= set(symbols.bindings(rtcore_scene.__file__, "rtc"))
+    shared_buffers = importlib.import_module(f"{ui.package}.engine.world.shared_buffers")
+    shares = shared_buffers.library_of(rtcore_scene).rtcSetSharedGeometryBuffer
+    path = symbols.file_of(ctypes.cast(shares, ctypes.c_void_p).value, symbols.mappings())
+    assert path.startswith(f"{own.resolve()}/"), f"meshes would be shared with {path}"
     tell_blenders(rtcore_scene)
 
 
