@@ -82,6 +82,10 @@ class GLANZ_RENDER_PT_sampling(GlanzPanel, bpy.types.Panel):
         # Where pixels are divided the end is known.
         rounds.active = settings.adaptive_threshold == 0
         rounds.prop(settings, "error_target")
+        target = rounds.column()
+        target.active = settings.error_target > 0
+        target.prop(settings, "error_measure")
+        target.prop(settings, "adaptive_sampling")
         rounds.prop(settings, "time_limit")
         column.prop(settings, "replicates")
         column.prop(settings, "sampler")

@@ -30,6 +30,8 @@ def _settings(**changes):
         "max_depth": 8,
         "sampler": "sobol",
         "error_target": 0.0,
+        "error_measure": "relative",
+        "adaptive_sampling": True,
         "time_limit": 0.0,
         "replicates": 0,
         "adaptive_threshold": 0.0,

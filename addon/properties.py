@@ -162,6 +162,32 @@ class GlanzSceneSettings(bpy.types.PropertyGroup):
         precision=4,
         step=1,
     )
+    error_measure: EnumProperty(
+        name="Measure",
+        description="What Error Target is an error of",
+        items=(
+            (
+                "relative",
+                "Relative",
+                "Of radiance, relative to the mean radiance of the picture: 0.01 is 1 % of it, in dark as in bright parts",
+            ),
+            (
+                "lightness",
+                "Lightness",
+                "Of what eyes see: CIE lightness as a share of that of white, which is radiance 1. 0.01 is one of 100 steps from black "
+                "to white, about the least that is seen side by side. Noise in dark parts counts for more. It does not know the exposure",
+            ),
+        ),
+        default="relative",
+    )
+    adaptive_sampling: BoolProperty(
+        name="Adaptive",
+        description=(
+            "An error target is reached with more samples where they lower the error more, up to Samples in a pixel, and with fewer "
+            "elsewhere. It begins with 128 samples of every pixel. Off: all pixels have as many"
+        ),
+        default=True,
+    )
     time_limit: FloatProperty(
         name="Time Limit",
         description=(

@@ -22,6 +22,8 @@ _OWN = (
     "filter_width",
     "filter_textures",
     "error_target",
+    "error_measure",
+    "adaptive_sampling",
     "time_limit",
     "replicates",
     "adaptive_threshold",

@@ -49,7 +49,8 @@ def _add_render(commands):
         ("min-contribution", float, "what a ray must count at least to be followed in whitted and distributed, 0 to 1"),
         ("seed", int, "another number, other noise"),
         ("replicates", int, "independent sets of samples, which tell the error; 0: 8 where it is asked for, else 1"),
-        ("error-target", float, "end where the standard error of the picture relative to its mean is this small, such as 0.01; 0: none"),
+        ("error-target", float, "end where the standard error of the picture is this small, such as 0.01; 0: none"),
+        ("error-measure", str, "of what: relative, radiance relative to its mean, or lightness, as a share of that of white"),
         ("time-limit", float, "end after so many seconds of rendering, each pixel with a sample at least; 0: none"),
         ("threads", int, "worker threads; 0: one per processor"),
         ("adaptive-threshold", float, "divide pixels where colours differ by more, from 0, never, to 1"),
@@ -57,6 +58,11 @@ def _add_render(commands):
         ("pixel-filter", str, "pixel filter: blackman_harris, gaussian, tent, mitchell, box"),
     ):
         command.add_argument(f"--{name}", type=kind, metavar=name[0].upper() if kind is str else "N", help=text)
+    command.add_argument(
+        "--adaptive-sampling",
+        action=argparse.BooleanOptionalAction,
+        help="reach an error target with more samples where they lower the error more; else with as many everywhere",
+    )
     command.add_argument(
         "--film-transparent",
         action=argparse.BooleanOptionalAction,

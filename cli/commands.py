@@ -22,6 +22,8 @@ OVERRIDES = (
     "seed",
     "replicates",
     "error_target",
+    "error_measure",
+    "adaptive_sampling",
     "time_limit",
     "threads",
     "adaptive_threshold",

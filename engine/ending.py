@@ -6,18 +6,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .allotment import allotted
+from .scene.settings import REPLICATES
 from .wavefront.numbers import layout
-
-MEASURED_BY = ("Combined", "Standard Error")
-"""The passes that the error of a picture is taken from."""
 
 
 @dataclass(frozen=True, slots=True)
 class Reached:
     """How far a picture has come.
 
-    samples   of each pixel; some may have more where the time was over
-    error     the standard error of the picture relative to its mean, see `relative_error`; infinite where unknown
+    samples   of each pixel, on average where an error target has spread them; some may have more where the time was over
+    error     that of the picture, see `measured.picture_error`; infinite where unknown
     ended_by  "samples", "error" or "time": what ended it; "" where it goes on, or was cancelled
     """
 
@@ -35,19 +34,20 @@ NOT_BEGUN = Reached(0)
 """Nothing yet."""
 
 
-def error_sums(values):
-    """(sum of squared standard errors, sum of radiances, how many of them) of pixels {pass: (C, P)}, to be added over tiles."""
-    radiance, errors = (values[key][:3].astype(np.float64) for key in MEASURED_BY)
-    return np.array((np.square(errors).sum(), radiance.sum(), radiance.size))
+def _joined(parts):
+    """(H, W) of what is known of the pixels of all tiles {place: (P,)}."""
+    left, top = min(x for x, _, _, _ in parts), min(y for _, y, _, _ in parts)
+    right, bottom = max(x + width for x, _, width, _ in parts), max(y + height for _, y, _, height in parts)
+    whole = np.zeros((bottom - top, right - left), next(iter(parts.values())).dtype)
+    for (x, y, width, height), values in parts.items():
+        whole[y - top : y - top + height, x - left : x - left + width] = values.reshape(height, width)
+    return whole
 
 
-def relative_error(sums):
-    """The root of the mean squared standard error of all pixels and channels over their mean radiance: an unbiased guess of
-    the relative RMSE, from `error_sums` of all tiles. 0 for a picture that is black without a doubt."""
-    squares, radiance, count = sums.tolist()
-    if not squares:
-        return 0.0
-    return math.sqrt(squares / count) / abs(radiance / count) if radiance else math.inf
+def _parted(whole, places):
+    """{place: (P,)}: what `_joined` has joined."""
+    left, top = min(x for x, _, _, _ in places), min(y for _, y, _, _ in places)
+    return {place: whole[y - top : y - top + h, x - left : x - left + w].ravel() for place in places for x, y, w, h in (place,)}
 
 
 class Ending:
@@ -63,12 +63,19 @@ class Ending:
         self._ends = ends
         self._target = settings.error_target
         self._limit = settings.time_limit
-        self._replicates = layout(settings.replicate_sizes).ends
+        self._replicates = layout(settings.replicate_sizes)
+        ends = self._replicates.ends[self._replicates.ends > self._begin]
+        may_spread = self._target and settings.adaptive_sampling and ends.size >= REPLICATES
+        self._spread_from = int(ends[REPLICATES - 1]) if may_spread else math.inf
         self._started = time.monotonic()
 
     def is_late(self):
         """Whether the time is over."""
         return bool(self._limit) and self._seconds() >= self._limit
+
+    def mean_samples(self, found):
+        """How many samples pixels have on average, rounded down, by what is `Found` of all."""
+        return self._begin + int(sum(part.samples.sum() for part in found)) // sum(part.samples.size for part in found)
 
     def ended_by(self, samples, error):
         """What ends a frame with so many `samples` and such an `error`; "" for nothing."""
@@ -82,6 +89,21 @@ class Ending:
         """The number of samples at the end of the round that begins at `samples`."""
         own = (self._end, *(end for end in self._ends if end > samples), *self._for_error(samples, error), *self._for_time(samples))
         return min(own)
+
+    def goals(self, found, samples):
+        """{place: how many samples its pixels are to have} of the round that brings the picture to `samples` a pixel.
+
+        found  {(x, y, width, height) [px]: what is `Found` of a tile, or None} of all tiles
+        A number, the same everywhere; or (P,) int, where an error target spreads samples. Places that get none are left out.
+        """
+        # One of a larger size is less noisy than the smaller ones say: after the second one that is known.
+        told = np.append(self._replicates.told, self._end)
+        ends = told[told > self._begin] - self._begin
+        if not all(part and (self._begin + part.samples >= self._spread_from).all() for part in found.values()):
+            return dict.fromkeys(found, samples)
+        squares, taken = (_joined({place: getattr(part, name) for place, part in found.items()}) for name in ("squares", "samples"))
+        goals = _parted(allotted(squares, taken, samples - self._begin, ends), found)
+        return {place: self._begin + goal for place, goal in goals.items() if (goal > found[place].samples).any()}
 
     def share(self, done, reached):
         """How much of the work is done, in [0, 1], where it is the share `done` of all samples, and error or time may end it before.
@@ -98,11 +120,16 @@ class Ending:
             return
         # The end of a replicate: the second one at first, then the last before the error is forecast to be small enough, which is as
         # likely as not a little too early, but not so far away that the forecast is not to be trusted.
-        ends = self._replicates[self._replicates > samples]
+        ends = self._replicates.ends[self._replicates.ends > samples]
         if not math.isfinite(error):
             yield int(ends[min(1, ends.size - 1)])
             return
-        wanted = min(self._needed(samples, error), self._begin + 2 * (samples - self._begin))
+        needed, most = self._needed(samples, error), self._begin + 2 * (samples - self._begin)
+        if samples >= self._spread_from:
+            # Some pixels may get more while others do not, so it can be as near as is worth a look.
+            yield min(max(samples + int(0.8 * (needed - samples)), samples + samples // 32), most)
+            return
+        wanted = min(needed, most)
         yield int(ends[max(np.searchsorted(ends, wanted, side="right") - 1, 0)])
 
     def _for_time(self, samples):

@@ -8,9 +8,9 @@ import numpy as np
 from . import needs
 from .arrays import Columns, columns
 from .constants import EPS32
-from .ending import MEASURED_BY
 from .interfaces import is_straight
 from .maths.vectors import length
+from .measured import MEASURED_BY
 from .registry import FILTERS, INTEGRATORS, PASSES, SAMPLERS
 from .requirements import Requirements
 from .scene.settings import Settings

@@ -6,14 +6,15 @@ import threading
 import time
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
 import numpy as np
 
 from .constants import VERSION
-from .ending import NOT_BEGUN, Ending, Reached, error_sums, relative_error
+from .ending import NOT_BEGUN, Ending, Reached
 from .errors import SceneWarning
+from .measured import Found, picture_error
 from .plan import Plan
 from .registry import PASSES
 from .requirements import Requirements
@@ -112,20 +113,22 @@ def render_plan(plan, ends=(), cancelled=None):
     settings = plan.settings
     places = _tiles(settings, plan.tile.longest_side(settings))
     ending = Ending(settings, ends if plan.tile.most_rounds(settings) == 1 else ())
-    work = _Work(places, ending, cancelled)
+    work = _Work(places, ending, settings.error_measure, cancelled)
     reached = Reached(settings.rendered_samples[0])
     workers = min(settings.threads or os.cpu_count() or 1, len(places))
     with ThreadPoolExecutor(workers, thread_name_prefix="glanz") as pool:
         try:
             while not (reached.ended_by or work.is_stopped()):
-                samples = reached.samples, ending.following(reached.samples, reached.error)
-                pending = {pool.submit(_work_on, plan, place, work, samples) for place in places}
+                samples = ending.following(reached.samples, reached.error)
+                goals = ending.goals(work.found, samples)
+                pending = {pool.submit(_work_on, plan, place, work, goal) for place, goal in goals.items()}
                 while pending:
                     finished, pending = wait(pending, POLL_SECONDS, FIRST_COMPLETED)
                     # First the unfinished: a tile among them may be finished by now.
                     tiles = tuple(filter(None, (*work.take_unfinished(), *(future.result() for future in finished))))
                     yield Progress(ending.share(work.done, reached), tiles, work.take_warnings(), work.places, reached)
-                reached = work.reached(samples)
+                # Without goals no pixel that has an error may get more.
+                reached = work.reached(reached.samples, samples) if goals else replace(reached, ended_by="samples")
             # What ended early has not known that it would.
             tiles = tuple(_tile(plan, place, tile.result(not work.is_cut), is_final=True) for place, tile in work.tiles.items())
             yield Progress(1.0 if reached.ended_by else work.done, tiles if reached.ended_by else (), reached=reached)
@@ -181,6 +184,8 @@ def metadata(scene, settings, layer="", requirements=None):
         "glanz.sample_range": "{},{}".format(*settings.rendered_samples),
         "glanz.replicates": str(len(settings.replicate_sizes)),
         "glanz.error_target": f"{settings.error_target:g}",
+        "glanz.error_measure": settings.error_measure,
+        "glanz.adaptive_sampling": str(settings.adaptive_sampling),
         "glanz.time_limit": f"{settings.time_limit:g} s",
         "glanz.max_depth": str(settings.max_depth),
         "glanz.seed": str(settings.seed),
@@ -196,13 +201,15 @@ class _Work:
     """What the threads of one render share.
 
     tiles   those that are begun, by their place
-    sums    what the errors of all are, by their place: `error_sums`, or None
+    found   what is `Found` of all, by their place, or None
+    measure how errors are measured, one of `MEASURES`
     is_cut  whether the time was over before a round was
     """
 
-    def __init__(self, tiles, ending, cancelled=None):
+    def __init__(self, tiles, ending, measure, cancelled=None):
         self.ending = ending
-        self.sums = dict.fromkeys(tiles)
+        self.measure = measure
+        self.found = dict.fromkeys(tiles)
         self.is_cut = False
         self._stops = [threading.Event(), *((cancelled,) if cancelled else ())]
         self.tiles = {}
@@ -237,14 +244,14 @@ class _Work:
         """Whether the threads are to give up."""
         return any(event.is_set() for event in self._stops)
 
-    def reached(self, samples):
-        """How far the frame is after a round from the first of `samples` to the last; not all pixels got there if it is late."""
-        is_known = all(sums is not None for sums in self.sums.values())
-        # In the order of places, whichever thread was first.
-        error = relative_error(sum(self.sums.values())) if is_known else math.inf
+    def reached(self, before, samples):
+        """How far the frame is after a round from the samples `before` it to `samples`; not all pixels got there if it is late."""
+        found = tuple(self.found.values())
+        error = math.inf if None in found else picture_error(found, self.measure)
         if self.is_cut or self.is_stopped():
-            return Reached(samples[0], error, "time" if self.is_cut else "")
-        return Reached(samples[1], error, self.ending.ended_by(samples[1], error))
+            return Reached(before, error, "time" if self.is_cut else "")
+        mean = samples if None in found else self.ending.mean_samples(found)
+        return Reached(mean, error, self.ending.ended_by(mean, error))
 
     def finish(self, tile, share):
         """The `share` of the work on a tile that is done, in [0, 1]."""
@@ -285,14 +292,14 @@ def _tiles(settings, longest_side):
     return sorted(tiles, key=lambda tile: max(abs(tile[0] + 0.5 * tile[2] - cx), abs(tile[1] + 0.5 * tile[3] - cy)))
 
 
-def _work_on(plan, place, work, samples):
+def _work_on(plan, place, work, goal):
     """`_render_tile`, seen by others while it lasts."""
     with work.at(place):
-        return _render_tile(plan, place, work, samples)
+        return _render_tile(plan, place, work, goal)
 
 
-def _render_tile(plan, place, work, samples):
-    """The `Tile` at `place` after `samples`, from the first to an end; None where it was cancelled."""
+def _render_tile(plan, place, work, goal):
+    """The `Tile` at `place` when its pixels have `goal` samples, a number or (P,); None where it was cancelled."""
     if work.is_stopped():
         return None
     tile = work.tiles.pop(place, None) or plan.tile(plan, place)
@@ -300,10 +307,10 @@ def _render_tile(plan, place, work, samples):
     weights = sample_weights(plan.filter, plan.settings.replicate_sizes)
     shown = time.monotonic()
     for number, (film, pixels) in enumerate(tile.rounds()):
-        paths = pixels.px.size * (samples[0] - begin)
-        for window, first, count in _batches(pixels.px.size, *samples, plan.replicates.edges):
+        is_first = not film.samples.any()
+        for window, first, count in _batches(begin + film.samples, goal, plan.replicates.edges):
             # Every pixel has a sample before the time is over.
-            if samples[0] > begin and work.ending.is_late():
+            if not is_first and work.ending.is_late():
                 work.is_cut = True
                 break
             film.open(count, window, weights[first : first + count], first)
@@ -312,16 +319,15 @@ def _render_tile(plan, place, work, samples):
             if not trace(spread, rays, film, work.is_stopped):
                 return None
             film.close(is_first=first == begin)
-            paths += rays.slot.size
-            work.finish(place, (number + paths / (pixels.px.size * (end - begin))) / tile.most_rounds(plan.settings))
+            work.finish(place, (number + film.samples.sum() / (pixels.px.size * (end - begin))) / tile.most_rounds(plan.settings))
             if time.monotonic() - shown > SHOW_SECONDS:
                 work.show(_tile(plan, place, tile.result(is_whole=False), is_final=False))
                 shown = time.monotonic()
         work.count_bad(film.bad_samples)
         film.bad_samples = 0
-    is_final = samples[1] == end and not work.is_cut
+    is_final = np.min(goal) == end and not work.is_cut
     values = tile.result(is_whole=is_final)
-    work.sums[place] = error_sums(values) if plan.settings.is_measured else None
+    work.found[place] = Found.of(values, tile.samples, work.measure) if plan.settings.is_measured else None
     if is_final:
         work.finish(place, 1)
     else:
@@ -335,16 +341,27 @@ def _tile(plan, place, values, is_final):
     return Tile(x, y, width, height, passes, is_final)
 
 
-def _batches(pixels, begin, end, edges):
-    """(window of pixels, first sample, samples) of batches of at most LANES paths, samples begin .. end - 1 of a window in order.
+def _batches(samples, goal, edges):
+    """(window of pixels, first sample, samples) of batches of at most LANES paths, the samples of a window in order.
 
-    None goes on beyond the samples `edges`.
+    They bring pixels that have `samples` (P,) to `goal`, a number or (P,). None goes on beyond the samples `edges`.
     """
-    at_once = min(pixels, LANES)
-    count = max(1, LANES // at_once)
-    bounds = (begin, *(int(edge) for edge in edges if begin < edge < end), end)
-    for start in range(0, pixels, at_once):
-        window = slice(start, min(start + at_once, pixels))
-        for lower, upper in pairwise(bounds):
-            for first in range(lower, upper, count):
-                yield window, first, min(count, upper - first)
+    # Those from and to the same numbers together.
+    ways = samples << np.int64(32) | goal
+    for way in np.unique(ways).tolist():
+        begin, end = way >> 32, way & 0xFFFFFFFF
+        pixels = np.nonzero(ways == way)[0]
+        at_once = min(pixels.size, LANES)
+        count = max(1, LANES // at_once)
+        bounds = (begin, *(int(edge) for edge in edges if begin < edge < end), end)
+        for start in range(0, pixels.size, at_once):
+            window = _window(pixels[start : start + at_once])
+            for lower, upper in pairwise(bounds):
+                for first in range(lower, upper, count):
+                    yield window, first, min(count, upper - first)
+
+
+def _window(pixels):
+    """Rising places as a slice, which is faster, where there are no gaps."""
+    first, end = int(pixels[0]), int(pixels[-1]) + 1
+    return slice(first, end) if end - first == pixels.size else pixels

@@ -12,6 +12,8 @@ REPLICATES = 8
 """Where the error is asked for and nothing else: its own error is then a quarter in a pixel, and far less in a picture."""
 FIRST = 16
 """Samples of the first replicates where a picture may end after any of them."""
+ERROR_MEASURES = ("relative", "lightness")
+"""What the error of a picture may be told in, see `measured`."""
 OF_ERROR = ("Standard Error", "Confidence")
 """Passes that ask for the error."""
 
@@ -29,7 +31,10 @@ class Settings:
     replicates     sets that the samples of a pixel are divided into, each with random numbers of its own: what their means differ by
                    tells the error, see `wavefront.replicates`, and noise grows as they do not complement each other. 1: no error is
                    known; 0: REPLICATES of them where passes or an error target ask for the error, else 1
-    error_target   the standard error of the picture, relative to its mean, at which rendering ends before all samples are in; 0: none
+    error_target   the standard error of the picture at which rendering ends before all samples are in; 0: none
+    error_measure  what that is an error of: "relative", radiance relative to its mean; or "lightness", see `measured`
+    adaptive_sampling  whether an error target is reached with more samples where they lower the error more, see `allotment`: at most
+                   `samples` in a pixel. Else with as many everywhere
     time_limit     the time [s] after which it ends, though not before every pixel has a sample; 0: none
     max_depth      bounces: 0 is direct light only (Cycles' `max_bounces`, the lecture's recursion depth)
     max_transparent  transparent surfaces that light passes between two bounces; the next one absorbs what it should let pass
@@ -58,6 +63,8 @@ class Settings:
     sample_range: tuple = ()
     replicates: int = 0
     error_target: float = 0.0
+    error_measure: str = "relative"
+    adaptive_sampling: bool = True
     time_limit: float = 0.0
     max_depth: int = 8
     max_transparent: int = 64
@@ -96,7 +103,7 @@ class Settings:
                 raise SceneError(f"setting {name} is {value!r}, allowed: whole numbers from {lowest} to {highest}")
         if isinstance(self.seed, bool) or not isinstance(self.seed, int):
             raise SceneError(f"setting seed is {self.seed!r}, allowed: whole numbers")
-        for name in ("light_falloff", "filter_textures", "film_transparent"):
+        for name in ("adaptive_sampling", "light_falloff", "filter_textures", "film_transparent"):
             if not isinstance(getattr(self, name), bool):
                 raise SceneError(f"setting {name} is {getattr(self, name)!r}, allowed: True or False")
         if not (isinstance(self.min_contribution, (int, float)) and 0.0 <= self.min_contribution <= 1.0):
@@ -105,6 +112,8 @@ class Settings:
             raise SceneError(f"setting filter_width is {self.filter_width!r} px, allowed: above 0 up to 10")
         if not (isinstance(self.error_target, (int, float)) and 0.0 <= self.error_target < math.inf):
             raise SceneError(f"setting error_target is {self.error_target!r}, allowed: from 0, which is none")
+        if self.error_measure not in ERROR_MEASURES:
+            raise SceneError(f"setting error_measure is {self.error_measure!r}, allowed: {', '.join(ERROR_MEASURES)}")
         if not (isinstance(self.time_limit, (int, float)) and 0.0 <= self.time_limit < math.inf):
             raise SceneError(f"setting time_limit is {self.time_limit!r} s, allowed: from 0, which is none")
         if not (isinstance(self.adaptive_threshold, (int, float)) and 0.0 <= self.adaptive_threshold <= 1.0):

@@ -48,7 +48,7 @@ class Cells:
     y: np.ndarray
 
     def part(self, window):
-        """Those of the slice `window`."""
+        """Those of `window`, a slice or places."""
         return Cells(self.level, self.x[window], self.y[window])
 
     @property
@@ -147,6 +147,14 @@ class AdaptiveTile:
             values = values.reshape(-1, height, width)[:, own_y - y :, own_x - x :][:, :own_height, :own_width]
             result[p.key] = values.reshape(len(values), -1)
         return shown(self._passes, result)
+
+    @property
+    def samples(self):
+        """Those of the undivided pixel, (P,) int, of the tile itself."""
+        x, y, width, height = self._roots
+        own_x, own_y, own_width, own_height = self._place
+        samples = self._films[0].samples.reshape(height, width)
+        return samples[own_y - y :, own_x - x :][:own_height, :own_width].ravel()
 
     def _film(self, cells):
         return Film(cells, self._sampled, self._replicates)

@@ -33,7 +33,7 @@ class Film:
         self.bad_samples = 0
 
     def open(self, samples, window, weights=(), first=0):
-        """Start `samples` more samples, from number `first` on, of the pixels `window`, a slice; further batches open the other pixels.
+        """Start `samples` more samples, from number `first` on, of the pixels `window`, a slice or places (M,), each once.
 
         weights (samples,) is what each counts in the mean, 1 on average over all samples of a pixel; empty: all count 1.
         """
@@ -41,7 +41,7 @@ class Film:
         self._first = first
         self._window = window
         self._count = samples
-        slots = samples * (window.stop - window.start)
+        slots = samples * self.samples[window].size
         self.radiance = np.zeros((3, slots), np.float32)
         self.clear = np.zeros((1, slots), np.float32)
         self._slots = slots
@@ -96,13 +96,14 @@ class Film:
                 self._rank(p, values)
                 continue
             samples = values.reshape(len(values), self._count, -1)
-            total = self.sums[p.key][:, self._window]
             if p.reduction == "first":
-                total += samples[:, 0] if is_first else 0
+                self.sums[p.key][:, self._window] += samples[:, 0] if is_first else 0
                 continue
             is_weighted = len(self._weights) and p.reduction == "mean"
+            total = self.sums[p.key][:, self._window]
             for i in range(self._count):
                 total += samples[:, i] * self._weights[i] if is_weighted else samples[:, i]
+            self.sums[p.key][:, self._window] = total
         self.samples[self._window] += self._count
         self._weight[self._window] += sum(self._weights) if len(self._weights) else self._count
 
@@ -117,8 +118,8 @@ class Film:
         if layers:
             number, weight = np.stack(layers, axis=1).reshape(2, len(layers), self._count, -1).swapaxes(1, 2)
             weight = weight * np.reshape(self._weights, (-1, 1, 1)) if len(self._weights) else weight
-            first, size = self._window.start, number.shape[-1]
-            self.sums[p.key].add(first, number.reshape(-1, size), weight.reshape(-1, size))
+            pixels = np.arange(self.samples.size)[self._window]
+            self.sums[p.key].add(pixels, number.reshape(-1, pixels.size), weight.reshape(-1, pixels.size))
 
     def pixels(self, is_whole=True):
         """{pass: (C, P) float64} of the samples gathered so far; 0, alpha too, for pixels without any.

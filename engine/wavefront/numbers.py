@@ -95,6 +95,8 @@ class Layout:
         self._starts = self.ends - self.sizes
         self.edges = self.ends[:-1][self.sizes[1:] != self.sizes[:-1]]
         """Samples with which replicates of another size begin."""
+        self.told = self.ends[1:][self.sizes[1:] == self.sizes[:-1]]
+        """Samples after which there are two replicates at least of every size, so that the error of all of them is told."""
 
     def of(self, samples):
         """(numbers of the replicates, numbers within them) of `samples` (S,)."""

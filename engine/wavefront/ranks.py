@@ -3,6 +3,8 @@
 import numpy as np
 
 _BITS = np.int64(32)
+_BLOCK = 2**16
+"""Pixels whose things are kept together: few enough to be sorted in by every batch."""
 _NOTHING = np.zeros(0, np.int64), np.zeros(0)
 
 
@@ -14,22 +16,25 @@ class Ranks:
 
     def __init__(self, pixels):
         self._pixels = pixels
-        # By the first pixel of each window, as those do not overlap: keys, pixel and bits of the number in one, and their weights.
-        self._windows = {}
+        # By block of pixels: keys, pixel and bits of the number in one, and their weights.
+        self._blocks = {}
 
-    def add(self, first, number, weight):
-        """Add `weight` (samples, pixels) of the things `number` (samples, pixels) to the pixels from `first` on; 0 is nothing."""
-        pixel = np.broadcast_to(first + np.arange(number.shape[1]), number.shape)
+    def add(self, pixels, number, weight):
+        """Add `weight` (samples, M) of the things `number` (samples, M) to `pixels` (M,), each once; 0 is nothing."""
+        pixel = np.broadcast_to(pixels, number.shape)
         # Samples where a pixel filter is negative take away, here as in the picture.
         met = np.nonzero((number != 0) & (weight != 0))
         keys = pixel[met] << _BITS | np.ascontiguousarray(number, np.float32).view(np.uint32)[met].astype(np.int64)
-        known, weights = self._windows.get(first, _NOTHING)
-        known, place = np.unique(np.concatenate((known, keys)), return_inverse=True)
-        self._windows[first] = known, np.bincount(place.ravel(), np.concatenate((weights, weight[met])), known.size)
+        weight, block = weight[met], pixel[met] // _BLOCK
+        for number_of_block in np.unique(block).tolist():
+            own = block == number_of_block
+            known, weights = self._blocks.get(number_of_block, _NOTHING)
+            known, place = np.unique(np.concatenate((known, keys[own])), return_inverse=True)
+            self._blocks[number_of_block] = known, np.bincount(place.ravel(), np.concatenate((weights, weight[own])), known.size)
 
     def pairs(self, level):
         """(4, P) float64: number and weight of the things of rank 2 `level` and the next, those that cover most first; 0 for none."""
-        keys, weights = (np.concatenate(columns) for columns in zip(*(self._windows.values() or (_NOTHING,))))
+        keys, weights = (np.concatenate(columns) for columns in zip(*(self._blocks.values() or (_NOTHING,))))
         weights = np.maximum(weights, 0)
         pixel = keys >> _BITS
         order = np.lexsort((-weights, pixel))

@@ -32,7 +32,7 @@ class Replicates:
         self._known, self._variance, self._doubt = np.zeros(pixels, np.int64), np.zeros((channels, pixels)), np.zeros((channels, pixels))
 
     def add(self, window, first, values):
-        """Add samples `first` ... of the pixels `window`, a slice: values (C, samples, pixels)."""
+        """Add samples `first` ... of the pixels `window`, a slice or places: values (C, samples, pixels)."""
         for number in range(first, first + values.shape[1]):
             if number in self._edges:
                 self._end_size(window)

@@ -15,7 +15,7 @@ class Pixels:
     py: np.ndarray
 
     def part(self, window):
-        """Those of the slice `window`."""
+        """Those of `window`, a slice or places."""
         return Pixels(self.px[window], self.py[window])
 
     def keys(self, numbers, width, seed):
@@ -35,7 +35,7 @@ class EvenTile:
 
     Tiles have longest_side(settings) [px], which they may not exceed, and most_rounds(settings). `rounds()` yields
     (film, what to sample into it) one after the other, and goes on when that has been done; `result(is_whole)` at any
-    time is {pass: (C, P) float32} of what has been sampled so far, see `Film.pixels`.
+    time is {pass: (C, P) float32} of what has been sampled so far, see `Film.pixels`; `samples` (P,) those that count for the error.
     """
 
     @staticmethod
@@ -59,6 +59,11 @@ class EvenTile:
     def result(self, is_whole=True):
         """What the film says."""
         return self._film.result(is_whole)
+
+    @property
+    def samples(self):
+        """How many each pixel has so far, (P,) int."""
+        return self._film.samples.copy()
 
 
 def rectangle(x, y, width, height):

@@ -17,6 +17,8 @@ ODD = {
     "max_depth": 31,
     "sampler": "random",
     "error_target": 0.5,
+    "error_measure": "lightness",
+    "adaptive_sampling": False,
     "time_limit": 77.0,
     "replicates": 3,
     "adaptive_threshold": 0.77,

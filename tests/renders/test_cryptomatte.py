@@ -89,9 +89,11 @@ def test_shares_do_not_depend_on_batches():
     rng = np.random.default_rng(1)
     number, weight = rng.integers(0, 4, (50, 7)).astype(np.float32), rng.random((50, 7))
     one, two = Ranks(9), Ranks(9)
-    one.add(1, number, weight)
+    pixels = np.arange(1, 8)
+    one.add(pixels, number, weight)
     for part in (slice(0, 3), slice(3, 50)):
-        two.add(1, number[part], weight[part])
+        two.add(pixels[::2], number[part, ::2], weight[part, ::2])
+        two.add(pixels[1::2], number[part, 1::2], weight[part, 1::2])
     for level in (0, 1):
         assert np.array_equal(one.pairs(level), two.pairs(level))
     exact = [weight[:, 2][number[:, 2] == n].sum() for n in (1, 2, 3)]

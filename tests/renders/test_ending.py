@@ -8,6 +8,7 @@ import pytest
 
 from glanz.engine import SceneError, ending, render, render_image
 from glanz.engine.ending import Ending, Reached
+from glanz.engine.measured import Found, picture_error
 from glanz.engine.rendering import render_plan
 from glanz.tests import helpers as h, scenes
 
@@ -130,18 +131,23 @@ def test_progress_follows_the_forecast():
 
 def test_a_picture_whose_light_adds_up_to_nothing_has_no_relative_error():
     """Filters with negative lobes may leave as much below as above 0."""
-    assert ending.relative_error(np.array((1.0, 0.0, 3.0))) == math.inf
-    assert ending.relative_error(np.array((3.0, 6.0, 3.0))) == 0.5
-    assert ending.relative_error(np.array((0.0, 0.0, 3.0))) == 0.0
+
+    def error(squares, radiance):
+        return picture_error([Found(np.ones(3, int), np.array(squares), radiance)], "relative")
+
+    assert error((1.0, 0.0, 0.0), 0.0) == math.inf
+    assert error((1.0, 1.0, 1.0), 6.0) == 0.5
+    assert error((0.0, 0.0, 0.0), 0.0) == 0.0
 
 
-def test_rounds_look_seldom_while_the_end_is_far_and_often_when_it_is_near():
+@pytest.mark.parametrize("spreads", [False, True])
+def test_rounds_look_seldom_while_the_end_is_far_and_often_when_it_is_near(spreads):
     """A picture whose error is that of independent samples, for a target at 5,000: less than 20 looks, no further than one replicate."""
-    way = Ending(h.settings(samples=2**20, error_target=0.01))
+    way = Ending(h.settings(samples=2**20, error_target=0.01, adaptive_sampling=spreads))
     samples, looks, error = 0, 0, math.inf
     while not way.ended_by(samples, error):
         following = way.following(samples, error)
-        assert following % 16 == 0 and following > samples
+        assert following > samples and (spreads or following % 16 == 0)
         samples, looks = following, looks + 1
         error = 0.01 * math.sqrt(5000 / samples)
     assert 5000 <= samples <= 5330

@@ -16,14 +16,14 @@ SIDE = 64
 PASSES = ("Combined", "Standard Error", "Confidence")
 
 
-def lamp(height=1.0):
+def lamp(height=1.0, size=0.001):
     """A square lamp over a point, half of it behind a wall: (scene, radiance of the point)."""
     place = h.affine(translation=(0, 0, height))
     light = AreaLight(name="lamp", world_from_light=place, size_x=1.0, size_y=1.0, radiance=(1.0, 2.0, 3.0))
     wall = h.thing(h.quad((1.0, 0, 0.5), (2.0, 0, 0), (0, 4.0, 0), name="wall"), h.lambert(0.0))
     corners = [(x, y, height) for x, y in ((-0.5, -0.5), (0, -0.5), (0, 0.5), (-0.5, 0.5))]
     truth = polygon_irradiance(corners, (0, 0, 0), (0, 0, 1)) / math.pi
-    return h.receiver([light], [wall], distance=0.1, size=0.001), truth * np.array((1.0, 2.0, 3.0))
+    return h.receiver([light], [wall], distance=0.1, size=size), truth * np.array((1.0, 2.0, 3.0))
 
 
 def rendered(scene, **changes):
