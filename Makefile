@@ -29,7 +29,7 @@ RUN := $(VENV)/bin/python
 PYTEST := $(RUN) -m pytest --numprocesses auto --dist worksteal
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render test test-thorough test-addon test-matrix desktop-test bench bench-growth bench-peers gallery nodes closures support extension extension-linux lint clean distclean
+.PHONY: help setup render test test-thorough test-addon test-matrix desktop-test bench bench-growth bench-targets bench-peers gallery nodes closures support extension extension-linux lint clean distclean
 
 help:
 	@echo "make render           render sample_scenes/cornell_box.blend to out/"
@@ -39,6 +39,7 @@ help:
 	@echo "make test-thorough    draw many new examples for tests of laws, in an hour; GLANZ_SEED=... draws the same again"
 	@echo "make bench            measure speed against Cycles"
 	@echo "make bench-growth     measure how time and memory grow with pixels, triangles, lights, threads, ...; GROWTH=--quick in a minute"
+	@echo "make bench-targets    measure whether error targets are reached, in half an hour; TARGETS=--quick in two minutes"
 	@echo "make bench-peers      measure time and error against Cycles and Mitsuba, in half an hour; PEERS=--quick in five minutes"
 	@echo "make nodes            compare every node with Cycles for docs/nodes.md"
 	@echo "make closures         compare every shader with Cycles for docs/closures.md"
@@ -86,6 +87,9 @@ bench: $(READY)
 
 bench-growth: $(READY)
 	$(RUN) -m benchmarks.growth $(GROWTH)
+
+bench-targets: $(READY)
+	$(RUN) -m benchmarks.targets $(TARGETS)
 
 bench-peers: $(VENV)/.ready-peers
 	$(RUN) -m benchmarks.peers $(PEERS)

@@ -1,0 +1,24 @@
+"""Errors against the mean of other pictures are those against the truth."""
+
+import numpy as np
+import pytest
+
+from glanz.benchmarks import targets
+
+
+def test_the_error_against_the_others_is_that_against_the_truth():
+    """Of 20 pictures of 10,000 values with a relative noise of 2 %: each is known to 0.7 %, and to what the others say of its luck."""
+    rng = np.random.default_rng(1)
+    truth = rng.uniform(1, 3, (50, 67, 3))
+    pictures = truth + rng.normal(0, 0.02 * truth.mean(), (20, *truth.shape))
+    exact = [np.sqrt(np.square(p - truth).mean()) / truth.mean() for p in pictures]
+    assert targets.errors(pictures) == pytest.approx(exact, rel=0.01)
+
+
+def test_pictures_are_counted_as_the_bounds_say():
+    assert targets.inside({"reached": [0.69, 0.7, 1.0, 1.05, 1.06]}) == 3
+    one = {"reached": [0.9] * 20, "stated": [0.95] * 20, "samples": [400] * 20}
+    never = {"reached": [], "stated": [3.1], "samples": [16384]}
+    text = targets.page({"facts": {"side": 32, "seeds": 20}, "scenes": {"one": one, "never": never}})
+    assert "20 of 20 pictures reached 0.7 to 1.05 times the target; in 1 of\n1 scenes" in text
+    assert "| never | not within 16,384 samples | | 3.10 | | 16,384 |" in text
