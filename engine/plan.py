@@ -32,6 +32,7 @@ from .wavefront.cones import (
     no_footprints,
     start_cones_in_range,
 )
+from .wavefront.continuation import SQUEEZE, squeeze, unsqueezed
 from .wavefront.direct import (
     all_lobes,
     any_side,
@@ -247,6 +248,8 @@ class Plan:
         place = world.frame.points(camera.position[:, None])[:, 0]
         row = camera.row(settings.width, settings.height, scale) | (clip_row(camera, scale) if is_clipped else {})
         splits = needs.SPLIT_LIGHT in requirements
+        # Where each channel has an index of its own nothing is chosen at random.
+        squeezes = not integrator.splits_specular and any(hasattr(lobe.k, "ior") for lobe in world.materials.lobes if lobe.bsdf.is_specular)
         return cls(
             scene=scene,
             settings=settings,
@@ -268,6 +271,7 @@ class Plan:
                 *(light_path.CARRIED if has_past else ()),
                 *((("split", not_split),) if splits else ()),
                 *(((STRAIGHT, straight_at_first),) if minds_straight else ()),
+                *(((SQUEEZE, unsqueezed),) if squeezes else ()),
             ),
             aim=aim_cones(aim) if has_cones else aim,
             aperture=bladed_aperture if camera.lens.blades else round_aperture,
@@ -317,6 +321,7 @@ class Plan:
                 *((stay_of_kind,) if is_sighted and splits_straight else ()),
                 *((split_by_lobes,) if splits else ()),
                 *((stay_straight,) if minds_straight else ()),
+                *((squeeze,) if squeezes else ()),
             ),
             first_hits=tuple(p for p in gathered if p.records.startswith("first hit")),
             passes=gathered,

@@ -8,7 +8,7 @@ import dataclasses
 import numpy as np
 
 from ..maths.hashing import mix_int
-from .continuation import leaving, survive
+from .continuation import leaving, thinned
 from .direct import add_direct_light, to_one_light
 from .numbers import Dimension
 
@@ -55,11 +55,8 @@ def spread(plan, rays, surface, reflection, count):
         sibling = split(rays, count, i)
         u1 = plan.choose_lobe(plan, sibling)
         wi, weight, pdf = reflection.scatter(surface, u1, plan.numbers.two(sibling, Dimension.DIRECTION))
-        beta = sibling.beta * weight
-        alive, q = survive(plan, sibling, beta)
-        beta /= q
-        scattered = leaving(plan, sibling, surface, reflection, wi, beta, pdf)
-        yield _contributing(plan, scattered if alive.all() else scattered.take(np.nonzero(alive)[0]))
+        scattered = leaving(plan, sibling, surface, reflection, wi, sibling.beta * weight, pdf)
+        yield _contributing(plan, thinned(plan, sibling, scattered))
 
 
 def add_distributed_light(plan, rays, surface, reflection, film):

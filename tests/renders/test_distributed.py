@@ -51,7 +51,7 @@ def test_with_one_branch_it_is_path_tracing_to_the_bit():
 
 
 def test_the_bits_catch_a_branch_that_is_dimmed(monkeypatch):
-    monkeypatch.setattr(branching, "survive", lambda plan, rays, beta: (np.ones_like(beta[0], bool), np.full_like(beta[0], 1.001)))
+    monkeypatch.setattr(branching, "thinned", lambda plan, rays, scattered: h.replaced(scattered, beta=scattered.beta / np.float32(1.001)))
     with pytest.raises(AssertionError):
         check_one_branch_is_a_path()
 

@@ -35,7 +35,8 @@ def index_at(p, bodies):
 def even_light(seed, camera, expected, **settings):
     things, _ = heap(seed)
     settings = h.settings(**{"width": 32, "height": 32, "samples": 64, "max_depth": 400} | settings)
-    return h.mean_is(h.pixels(h.scene(things, camera=camera, world=1.0), settings)[1].ravel(), expected, floor=1e-6)
+    # Total reflection keeps one path of a thousand between parallel faces for all bounces.
+    return h.mean_is(h.pixels(h.scene(things, camera=camera, world=1.0), settings)[1].ravel(), expected, floor=2e-3)
 
 
 @pytest.mark.parametrize("seed", range(6))

@@ -29,21 +29,37 @@ def test_what_loses_nothing_cannot_be_seen_in_even_light(lobes, smooth):
 @pytest.mark.parametrize("smooth", [False, True])
 @pytest.mark.parametrize("ior", [1 / 1.5, 1.5, 2.42])
 def test_glass_is_as_bright_as_what_surrounds_it(ior, smooth):
-    """D18: radiance is scaled by eta^2 on the way in and back on the way out; detects 0.5 %."""
+    """D18: radiance is scaled by eta^2 on the way in and back on the way out; detects 0.5 %, as some paths are inside for 200 bounces."""
     image = seen((Dielectric(ior),), smooth)
-    assert h.mean_is(image.mean(axis=2).reshape(-1), 1.0, floor=1e-6)
+    assert h.mean_is(image.mean(axis=2).reshape(-1), 1.0, floor=5e-3)
 
 
-@pytest.mark.parametrize("ior", [0.1, 1.01, 10.0])
-def test_glass_of_extreme_indices_is_as_bright_as_what_surrounds_it(ior):
-    """D18, without shading normals, which can keep light of a nearly invisible ball in circles; detects 0.02 %, and 5 % at 10."""
-    image = seen((Dielectric(ior),), smooth=False, max_depth=2000)
-    assert h.mean_is(image.mean(axis=2).reshape(-1), 1.0, floor=1e-6)
+@pytest.mark.parametrize("ior", [1 / 1.5, 1.5, 2.42])
+def test_roulette_ends_no_path_in_glass_that_loses_nothing(ior):
+    """What radiance loses on the way in it wins on the way out, and so no path weighs more or less than another: there is no noise."""
+    assert np.abs(seen((Dielectric(ior),), smooth=False, samples=16, max_depth=2000) - 1).max() <= 1e-4
+
+
+def test_even_light_catches_roulette_that_takes_the_index_for_a_loss(monkeypatch):
+    monkeypatch.setattr(continuation, "SQUEEZE", "")
+    with pytest.raises(AssertionError):
+        test_roulette_ends_no_path_in_glass_that_loses_nothing(2.42)
+
+
+@pytest.mark.parametrize(("ior", "floor"), [(0.1, 2e-4), (1.01, 2e-4), (10.0, 1e-2)])
+def test_glass_of_extreme_indices_is_as_bright_as_what_surrounds_it(ior, floor):
+    """D18, without shading normals, which can keep light of a nearly invisible ball in circles; detects 0.02 %.
+
+    At 10, where some paths are inside for 2,000 bounces, 1 %.
+    """
+    image = seen((Dielectric(ior),), smooth=False, samples=16, max_depth=2000)
+    assert h.mean_is(image.mean(axis=2).reshape(-1), 1.0, floor)
 
 
 def test_lobes_of_every_kind_share_the_light():
     mixed = (Lambert((0.5,) * 3), Mirror((0.25,) * 3), Dielectric(1.5, (0.25,) * 3, (0.25,) * 3))
-    assert h.mean_is(seen(mixed, True).mean(axis=2).reshape(-1), 1.0, floor=1e-6)
+    # Shading normals keep some paths inside for all of the 200 bounces.
+    assert h.mean_is(seen(mixed, True).mean(axis=2).reshape(-1), 1.0, floor=1e-3)
 
 
 def test_the_furnace_catches_radiance_that_is_not_scaled_on_one_side(monkeypatch):
