@@ -47,6 +47,7 @@ from .wavefront.direct import (
 from .wavefront.emission import add_emission, even_shine, textured_shine
 from .wavefront.escape import add_background, add_environment, add_light_hits, add_light_hits_beyond
 from .wavefront.holdouts import hold_out
+from .wavefront.loop import few_wait, none_wait
 from .wavefront.motion import (
     TIME,
     add_moving_emission,
@@ -110,6 +111,7 @@ class Plan:
     on_leaving         stages (plan, rays, surface, reflection, scattered) that renew what scattered rays carry
     first_hits         the passes that record where camera rays hit
     tile               how the pixels of a tile are sampled, see `wavefront.tiles`
+    wait               what becomes of few rays (waiting, rays), see `wavefront.loop`
     passes             those that are gathered: what the settings ask for, what that is divided by, what tells the error
     last_depth         the depth of the last rays that are traced
     The other functions are choices that cost nothing where there is nothing to choose.
@@ -160,6 +162,7 @@ class Plan:
     passes: tuple
     tile: type
     scatter: object
+    wait: object
     shading_normals: object
     choose_lobe: object
     leave: object
@@ -327,6 +330,7 @@ class Plan:
             passes=gathered,
             tile=AdaptiveTile if needs.ADAPTIVE in requirements else EvenTile,
             scatter=integrator.scatter,
+            wait=none_wait if integrator.splits_specular else few_wait,
             shading_normals=smooth_normals if smooth else flat_normals,
             choose_lobe=one_of_the_lobes if len(world.materials.lobes) > 1 else only_lobe,
             leave=leave_on_either_side if any(lobe.bsdf.transmits for lobe in world.materials.lobes) else leave_in_front,

@@ -26,6 +26,8 @@ from .wavefront.signed_filter import sample_weights
 
 LANES = 2**16
 """Paths in a batch: enough to hide Python, few enough for the cache."""
+TOGETHER = 4
+"""Batches that are on the film at a time: what is left of them after a few bounces is followed together."""
 POLL_SECONDS = 0.1
 SHOW_SECONDS = 0.5
 """How often a tile that takes long is shown unfinished; what a user who cancels may lose of it."""
@@ -315,8 +317,7 @@ def _render_tile(plan, place, work, goal):
                 break
             film.open(count, window, weights[first : first + count], first)
             spread = spread_at(plan, first)
-            rays = camera_rays(spread, pixels.part(window), first, count)
-            if not trace(spread, rays, film, work.is_stopped):
+            if not trace(spread, _camera_batches(spread, pixels.part(window), first, count), film, work.is_stopped):
                 return None
             film.close(is_first=first == begin)
             work.finish(place, (number + film.samples.sum() / (pixels.px.size * (end - begin))) / tile.most_rounds(plan.settings))
@@ -341,8 +342,18 @@ def _tile(plan, place, values, is_final):
     return Tile(x, y, width, height, passes, is_final)
 
 
+def _camera_batches(plan, pixels, first, count):
+    """`camera_rays` for samples first .. first + count - 1 of `pixels`, at most LANES of them at a time."""
+    size = pixels.px.size
+    step = max(1, LANES // size)
+    for begin in range(0, count, step):
+        rays = camera_rays(plan, pixels, first + begin, min(step, count - begin))
+        rays.slot[...] += begin * size
+        yield rays
+
+
 def _batches(samples, goal, edges):
-    """(window of pixels, first sample, samples) of batches of at most LANES paths, the samples of a window in order.
+    """(window of pixels, first sample, samples) of at most TOGETHER batches, the samples of a window in order.
 
     They bring pixels that have `samples` (P,) to `goal`, a number or (P,). None goes on beyond the samples `edges`.
     """
@@ -352,7 +363,7 @@ def _batches(samples, goal, edges):
         begin, end = way >> 32, way & 0xFFFFFFFF
         pixels = np.nonzero(ways == way)[0]
         at_once = min(pixels.size, LANES)
-        count = max(1, LANES // at_once)
+        count = TOGETHER * max(1, LANES // at_once)
         bounds = (begin, *(int(edge) for edge in edges if begin < edge < end), end)
         for start in range(0, pixels.size, at_once):
             window = _window(pixels[start : start + at_once])

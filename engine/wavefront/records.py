@@ -45,6 +45,17 @@ class Rays:
         """(3, N) the normals on the side that rays have left; None where no choice of a light minds it."""
         return getattr(self.carried, "facing", None)
 
+    @classmethod
+    def joined(cls, batches):
+        """All rays of `batches`, a list of one depth, split and stream, none of them from the camera, one batch after the other."""
+        if len(batches) == 1:
+            return batches[0]
+        first = batches[0]
+        names = ("o", "d", "beta", "pdf", "slot", "key", "sample")
+        columns = (np.concatenate([getattr(rays, name) for rays in batches], axis=-1) for name in names)
+        carried = {name: np.concatenate([getattr(rays.carried, name) for rays in batches], axis=-1) for name in vars(first.carried)}
+        return cls(*columns, first.depth, first.split, first.stream, Columns(**carried))
+
     def landed(self, lanes):
         """The rays `lanes` (M,) for what happens where they hit: origins and densities have done their work."""
         return Rays(

@@ -147,7 +147,7 @@ def twin(scene, settings):
         one = np.array([x]), np.array([y])
         film = Film(1, plan.passes)
         film.open(settings.samples, slice(0, 1))
-        trace(plan, camera_rays(plan, Cells(level, *one) if level else Pixels(*one), 0, settings.samples), film)
+        trace(plan, [camera_rays(plan, Cells(level, *one) if level else Pixels(*one), 0, settings.samples)], film)
         film.close(is_first=True)
         return film.pixels()["Combined"][:3]
 

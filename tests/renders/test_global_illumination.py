@@ -159,7 +159,7 @@ def radiance_of_rays(plan, points, d):
         sample=np.zeros(n, np.uint32),
         depth=0,
     )
-    assert trace(plan, rays, film)
+    assert trace(plan, [rays], film)
     return film.radiance.astype(np.float64)
 
 

@@ -9,6 +9,7 @@ from glanz.engine import INTEGRATORS, Mesh, PointLight, Scene, rendering
 from glanz.engine.maths.hashing import mix
 from glanz.engine.wavefront import numbers, visibility
 from glanz.engine.wavefront.film import Film
+from glanz.engine.wavefront.loop import few_wait
 from glanz.engine.world.frame import Frame
 from glanz.tests import helpers as h, scenes
 
@@ -250,6 +251,37 @@ def test_batches_change_no_bit_of_any_integrator(integrator, monkeypatch):
     for lanes in (1, 7, 10**6):
         monkeypatch.setattr(rendering, "LANES", lanes)
         assert h.same_bits(all_passes(settings), image), lanes
+
+
+def batches_of_depths(monkeypatch, together):
+    """How many batches of each depth are followed for four samples of 24 pixels, each a batch, and the picture."""
+    monkeypatch.setattr(rendering, "LANES", 24)
+    monkeypatch.setattr(rendering, "TOGETHER", together)
+    plan = h.plan_of(scenes.everything(), h.settings(width=6, height=4, samples=4, max_depth=2, tile_size=0))
+    counts = {}
+
+    def counted(plan, rays, film, travel=plan.travel):
+        counts[rays.depth] = counts.get(rays.depth, 0) + 1
+        return travel(plan, rays, film)
+
+    return counts, h.pixels_of_plan(h.replaced(plan, travel=counted))
+
+
+def test_few_rays_of_a_depth_are_followed_together_and_change_no_bit(monkeypatch):
+    """Four batches from the camera go on as one, in any order of bounces."""
+    alone, expected = batches_of_depths(monkeypatch, 1)
+    joined, image = batches_of_depths(monkeypatch, 4)
+    assert alone == dict.fromkeys(range(4), 4)
+    assert joined == {0: 4, 1: 1, 2: 1, 3: 1}
+    assert h.same_bits(image, expected)
+
+
+def test_bits_catch_siblings_that_wait(monkeypatch):
+    """Light of rays that split is added in another order where some of them wait: they must not."""
+    settings = h.settings(width=24, height=16, samples=2, max_depth=3, integrator="distributed", branches=4, tile_size=0)
+    plan = h.plan_of(scenes.everything(), settings)
+    monkeypatch.setattr(rendering, "LANES", 97)
+    assert not h.same_bits(h.pixels_of_plan(h.replaced(plan, wait=few_wait)), h.pixels_of_plan(plan))
 
 
 @pytest.mark.parametrize("k", [-30, -4, 5, 30])
