@@ -29,7 +29,7 @@ RUN := $(VENV)/bin/python
 PYTEST := $(RUN) -m pytest --numprocesses auto --dist worksteal
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render test test-thorough test-addon test-matrix desktop-test bench bench-growth bench-targets bench-peers gallery nodes closures support extension extension-linux lint clean distclean
+.PHONY: help setup render test test-thorough test-addon test-matrix desktop-test bench bench-growth bench-targets bench-peers bench-presets gallery nodes closures support extension extension-linux lint clean distclean
 
 help:
 	@echo "make render           render sample_scenes/cornell_box.blend to out/"
@@ -41,6 +41,7 @@ help:
 	@echo "make bench-growth     measure how time and memory grow with pixels, triangles, lights, threads, ...; GROWTH=--quick in a minute"
 	@echo "make bench-targets    measure whether error targets are reached, in half an hour; TARGETS=--quick in two minutes"
 	@echo "make bench-peers      measure time and error against Cycles and Mitsuba, in half an hour; PEERS=--quick in five minutes"
+	@echo "make bench-presets    measure what the presets cost and are worth on the sample scenes, in an hour; PRESETS=--quick in minutes"
 	@echo "make nodes            compare every node with Cycles for docs/nodes.md"
 	@echo "make closures         compare every shader with Cycles for docs/closures.md"
 	@echo "make support          write docs/support.md, what of Blender is rendered and how; with the newest Blender last"
@@ -93,6 +94,9 @@ bench-targets: $(READY)
 
 bench-peers: $(VENV)/.ready-peers
 	$(RUN) -m benchmarks.peers $(PEERS)
+
+bench-presets: $(READY)
+	$(RUN) -m benchmarks.presets $(PRESETS)
 
 # Mitsuba takes 200 MB, so it comes only here. What is set up anew removes this stamp, too.
 $(VENV)/.ready-peers: $(READY)

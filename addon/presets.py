@@ -15,8 +15,53 @@ from . import backend
 
 
 @dataclass(frozen=True)
+class Over:
+    """How many times that of another preset something is: the median over sample scenes, and the least and the most of them."""
+
+    median: float
+    least: float
+    most: float
+
+    def inverse(self):
+        """How many times this the other's is."""
+        return Over(1 / self.median, 1 / self.most, 1 / self.least)
+
+    def of(self, whole):
+        """As words: "1/7 of WHOLE (1/8 to 1/6)", "2.9 times WHOLE (2.3 to 5)"."""
+        times = "of" if self.median < 1 else "times"
+        return f"{_ratio(self.median)} {times} {whole} ({_ratio(self.least)} to {_ratio(self.most)})"
+
+
+def _ratio(value):
+    """As people say it, to 5 %: 1/7, 0.7, 2.9, 11."""
+    parts = round(1 / value)
+    if parts > 1 and abs(parts * value - 1) < 0.05:
+        return f"1/{parts}"
+    return f"{value:.2g}"
+
+
+TIME = {
+    "PREVIEW": Over(1 / 9, 1 / 10, 1 / 8),
+    "FINAL": Over(8.4, 6.9, 9.1),
+    "WHITTED": Over(1 / 12, 1 / 40, 0.58),
+    "DISTRIBUTED": Over(1.4, 0.93, 2.1),
+}
+"""Of presets, relative to Balanced; this and the following as measured by `python -m benchmarks.presets`, see docs/presets.md."""
+ERROR = {
+    "PREVIEW": Over(3, 2, 8.4),
+    "FINAL": Over(1 / 3, 0.28, 0.63),
+}
+"""Noise and bias of few bounces together."""
+NOISE = {
+    "WHITTED": Over(2, 0.18, 8.4),
+    "DISTRIBUTED": Over(1.5, 0.31, 22),
+}
+"""Of presets whose light is not all that there is: what they leave out is meant, and no error of theirs."""
+
+
+@dataclass(frozen=True)
 class Preset:
-    """What `scene.glanz` becomes; `cost` tells users when to take it, and how long it takes."""
+    """What `scene.glanz` becomes; `cost` tells users when to take it, and how long it takes for how much error."""
 
     label: str
     cost: str
@@ -46,31 +91,36 @@ def _settings(**changes):
 PRESETS = {
     "PREVIEW": Preset(
         "Preview",
-        "To see whether light and materials are about right: 16 paths per pixel of few bounces. "
-        "Nearly three times the noise of Balanced, in an eighth of its time or a little more; interiors are darker than they will be",
+        "To see whether light and materials are about right: 16 paths per pixel, up to 4 bounces, so interiors and glass are darker "
+        "than they will be. "
+        f"Takes {TIME['PREVIEW'].of('the time of Balanced')} for {ERROR['PREVIEW'].of('the error')}, on sample scenes",
         _settings(samples=16, max_depth=4),
     ),
     "BALANCED": Preset(
         "Balanced",
-        "For most pictures: 128 paths per pixel, up to 8 bounces. Takes twice the time of the settings that new files have",
+        "For most pictures: 128 paths per pixel, up to 8 bounces; twice the time of the settings that new files have. "
+        f"Takes {TIME['PREVIEW'].inverse().of('the time of Preview')} for {ERROR['PREVIEW'].inverse().of('the error')}, "
+        "on sample scenes",
         _settings(samples=128),
     ),
     "FINAL": Preset(
         "Final",
         "For what will be looked at closely: 1024 paths per pixel, up to 16 bounces. "
-        "A third of the noise of Balanced, in eight times its time or a little more",
+        f"Takes {TIME['FINAL'].of('the time of Balanced')} for {ERROR['FINAL'].of('the error')}, on sample scenes",
         _settings(samples=1024, max_depth=16),
     ),
     "WHITTED": Preset(
         "Lecture: Whitted",
         "Recursive ray tracing as of 1980: hard shadows, mirrors and glass, Phong's illumination model, no light from surface to surface. "
-        "Hardly any noise; pixels are divided where colours differ, in up to 16 parts. Takes from a thirtieth to a half of Balanced's time",
+        "Pixels are divided where colours differ, in up to 16 parts. "
+        f"Takes {TIME['WHITTED'].of('the time of Balanced')} with {NOISE['WHITTED'].of('the noise')}, on sample scenes",
         _settings(integrator="whitted_phong", samples=1, max_depth=6, min_contribution=0.01, adaptive_threshold=0.1, adaptive_levels=2),
     ),
     "DISTRIBUTED": Preset(
         "Lecture: Distributed",
-        "Distributed ray tracing as of 1984: soft shadows, dull mirrors and indirect light by splitting each of 4 rays per pixel in 16. "
-        "Takes Balanced's time or a half more, with about its noise",
+        "Distributed ray tracing as of 1984: soft shadows, dull mirrors and indirect light by splitting each of 4 rays per pixel in 16; "
+        "light of more than 3 bounces is left out. "
+        f"Takes {TIME['DISTRIBUTED'].of('the time of Balanced')} with {NOISE['DISTRIBUTED'].of('the noise')}, on sample scenes",
         _settings(integrator="distributed", samples=4, max_depth=3, min_contribution=0.01),
     ),
 }
