@@ -32,6 +32,8 @@ class Reached:
 
 NOT_BEGUN = Reached(0)
 """Nothing yet."""
+SLOPES = (0.5, 1.0)
+"""How fast errors fall is measured, but not believed to be slower than by chance, or faster than by even samples of what is smooth."""
 
 
 def _joined(parts):
@@ -67,6 +69,8 @@ class Ending:
         ends = self._replicates.ends[self._replicates.ends > self._begin]
         may_spread = self._target and settings.adaptive_sampling and ends.size >= REPLICATES
         self._spread_from = int(ends[REPLICATES - 1]) if may_spread else math.inf
+        # The last samples and error that were looked at, and the power of the samples that the error falls by: 1/2 for independent ones.
+        self._looked, self._slope = (), SLOPES[0]
         self._started = time.monotonic()
 
     def is_late(self):
@@ -86,7 +90,8 @@ class Ending:
         return "time" if self.is_late() and samples > self._begin else ""
 
     def following(self, samples, error):
-        """The number of samples at the end of the round that begins at `samples`."""
+        """The number of samples at the end of the round that begins at `samples`, with an `error`: learns how fast that falls."""
+        self._look(samples - self._begin, error)
         own = (self._end, *(end for end in self._ends if end > samples), *self._for_error(samples, error), *self._for_time(samples))
         return min(own)
 
@@ -140,9 +145,17 @@ class Ending:
         fits = speed * (self._limit - self._seconds())
         yield samples + max(1, min(done, int(fits / 2)))
 
+    def _look(self, samples, error):
+        if not (0 < error < math.inf):
+            return
+        if self._looked and samples > self._looked[0]:
+            slope = math.log(self._looked[1] / error) / math.log(samples / self._looked[0])
+            self._slope = min(max(slope, SLOPES[0]), SLOPES[1])
+        self._looked = samples, error
+
     def _needed(self, samples, error):
-        # The variance falls as 1 / samples. Nothing is known of an error that is infinite.
-        return self._begin + (samples - self._begin) * (error / self._target) ** 2 if math.isfinite(error) else math.inf
+        # Nothing is known of an error that is infinite.
+        return self._begin + (samples - self._begin) * (error / self._target) ** (1 / self._slope) if math.isfinite(error) else math.inf
 
     def _seconds(self):
         return time.monotonic() - self._started

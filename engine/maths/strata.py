@@ -1,6 +1,7 @@
 """Cells that divide the unit interval and the unit square, and numbers placed in them."""
 
 import math
+from functools import lru_cache
 
 import numpy as np
 
@@ -8,9 +9,14 @@ from ..constants import ONE_MINUS_EPS32
 from .hashing import mix, permute, to_unit
 
 
+@lru_cache(maxsize=256)
 def grid(samples):
-    """(columns, rows) of the two-dimensional cells: the most square grid with at least `samples` of them."""
-    rows = math.isqrt(samples)
+    """(columns, rows) of the two-dimensional cells: the most square grid of `samples` of them, at most twice as wide as high.
+
+    Where there is none, the most square one with at least as many: cells that stay empty cost more than those that are not square.
+    """
+    square = math.isqrt(samples)
+    rows = next((rows for rows in range(square, math.isqrt((samples - 1) // 2), -1) if samples % rows == 0), square)
     return -(-samples // rows), rows
 
 

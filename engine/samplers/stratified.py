@@ -1,7 +1,7 @@
 """Jittered sampling: one number in each of as many equal cells as there are samples.
 
-In one dimension the cells are `samples` intervals. In two they are a grid of columns x rows >= samples, as square as
-it gets (Kensler 2013, Pixar TM 13-01, section 3); where columns * rows > samples some cells stay empty. Which sample
+In one dimension the cells are `samples` intervals. In two they are a grid of columns x rows >= samples, see `strata.grid` (after
+Kensler 2013, Pixar TM 13-01, section 3); where columns * rows > samples some cells stay empty. Which sample
 takes which cell is a random permutation, its own for each pixel and dimension, so every single sample is uniform
 and the mean is unbiased for any number of samples.
 """

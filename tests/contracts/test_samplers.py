@@ -155,7 +155,7 @@ def test_the_grid_has_a_cell_for_every_sample_and_few_to_spare():
     for samples in range(1, 2_000):
         columns, rows = grid(samples)
         assert samples <= columns * rows < samples + rows
-        assert rows <= columns <= rows + 2
+        assert rows <= columns <= 2 * rows + 1
 
 
 def check_one_sample_per_cell(sampler):
