@@ -1,11 +1,8 @@
 """From a scene to pictures: tiles as they finish, from threads over the frame."""
 
-import math
 import os
-import threading
 import time
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
-from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
@@ -13,8 +10,7 @@ import numpy as np
 
 from .constants import VERSION
 from .ending import NOT_BEGUN, Ending, Reached
-from .errors import SceneWarning
-from .measured import Found, picture_error
+from .measured import Found
 from .plan import Plan
 from .registry import PASSES
 from .requirements import Requirements
@@ -23,6 +19,8 @@ from .wavefront.camera_rays import camera_rays
 from .wavefront.loop import trace
 from .wavefront.numbers import spread_at
 from .wavefront.signed_filter import sample_weights
+from .wavefront.witness import culprit
+from .work import Work
 
 LANES = 2**16
 """Paths in a batch: enough to hide Python, few enough for the cache."""
@@ -115,7 +113,7 @@ def render_plan(plan, ends=(), cancelled=None):
     settings = plan.settings
     places = _tiles(settings, plan.tile.longest_side(settings))
     ending = Ending(settings, ends if plan.tile.most_rounds(settings) == 1 else ())
-    work = _Work(places, ending, settings.error_measure, cancelled)
+    work = Work(places, ending, settings.error_measure, cancelled)
     reached = Reached(settings.rendered_samples[0])
     workers = min(settings.threads or os.cpu_count() or 1, len(places))
     with ThreadPoolExecutor(workers, thread_name_prefix="glanz") as pool:
@@ -133,7 +131,8 @@ def render_plan(plan, ends=(), cancelled=None):
                 reached = work.reached(reached.samples, samples) if goals else replace(reached, ended_by="samples")
             # What ended early has not known that it would.
             tiles = tuple(_tile(plan, place, tile.result(not work.is_cut), is_final=True) for place, tile in work.tiles.items())
-            yield Progress(1.0 if reached.ended_by else work.done, tiles if reached.ended_by else (), reached=reached)
+            done, tiles = (1.0, tiles) if reached.ended_by else (work.done, ())
+            yield Progress(done, tiles, work.bad_in_all(), reached=reached)
         finally:
             work.stop()
             pool.shutdown(wait=True, cancel_futures=True)
@@ -199,92 +198,6 @@ def metadata(scene, settings, layer="", requirements=None):
     }
 
 
-class _Work:
-    """What the threads of one render share.
-
-    tiles   those that are begun, by their place
-    found   what is `Found` of all, by their place, or None
-    measure how errors are measured, one of `MEASURES`
-    is_cut  whether the time was over before a round was
-    """
-
-    def __init__(self, tiles, ending, measure, cancelled=None):
-        self.ending = ending
-        self.measure = measure
-        self.found = dict.fromkeys(tiles)
-        self.is_cut = False
-        self._stops = [threading.Event(), *((cancelled,) if cancelled else ())]
-        self.tiles = {}
-        self._lock = threading.Lock()
-        self._pixels = sum(width * height for _, _, width, height in tiles)
-        self._finished = {}
-        self._bad_samples = 0
-        self._unfinished = []
-        self._places = {}
-
-    @contextmanager
-    def at(self, place):
-        """Say that a thread is at `place` while the block lasts."""
-        with self._lock:
-            self._places[place] = True
-        try:
-            yield
-        finally:
-            with self._lock:
-                del self._places[place]
-
-    @property
-    def places(self):
-        with self._lock:
-            return tuple(self._places)
-
-    def stop(self):
-        """Let all threads give up."""
-        self._stops[0].set()
-
-    def is_stopped(self):
-        """Whether the threads are to give up."""
-        return any(event.is_set() for event in self._stops)
-
-    def reached(self, before, samples):
-        """How far the frame is after a round from the samples `before` it to `samples`; not all pixels got there if it is late."""
-        found = tuple(self.found.values())
-        error = math.inf if None in found else picture_error(found, self.measure)
-        if self.is_cut or self.is_stopped():
-            return Reached(before, error, "time" if self.is_cut else "")
-        mean = samples if None in found else self.ending.mean_samples(found)
-        return Reached(mean, error, self.ending.ended_by(mean, error))
-
-    def finish(self, tile, share):
-        """The `share` of the work on a tile that is done, in [0, 1]."""
-        _, _, width, height = tile
-        with self._lock:
-            self._finished[tile] = share * width * height
-
-    def show(self, tile):
-        with self._lock:
-            self._unfinished.append(tile)
-
-    def take_unfinished(self):
-        with self._lock:
-            tiles, self._unfinished = self._unfinished, []
-        return tiles
-
-    def count_bad(self, samples):
-        with self._lock:
-            self._bad_samples += samples
-
-    @property
-    def done(self):
-        with self._lock:
-            return sum(self._finished.values()) / self._pixels
-
-    def take_warnings(self):
-        with self._lock:
-            bad, self._bad_samples = self._bad_samples, 0
-        return (SceneWarning(f"{bad} samples were not finite and count as black"),) if bad else ()
-
-
 def _tiles(settings, longest_side):
     """(x, y, width, height) of all tiles, from the middle outwards."""
     x0, y0, x1, y1 = settings.region
@@ -320,12 +233,12 @@ def _render_tile(plan, place, work, goal):
             if not trace(spread, _camera_batches(spread, pixels.part(window), first, count), film, work.is_stopped):
                 return None
             film.close(is_first=first == begin)
+            if film.bad_samples:
+                _report_bad(plan, film, pixels, work)
             work.finish(place, (number + film.samples.sum() / (pixels.px.size * (end - begin))) / tile.most_rounds(plan.settings))
             if time.monotonic() - shown > SHOW_SECONDS:
                 work.show(_tile(plan, place, tile.result(is_whole=False), is_final=False))
                 shown = time.monotonic()
-        work.count_bad(film.bad_samples)
-        film.bad_samples = 0
     is_final = np.min(goal) == end and not work.is_cut
     values = tile.result(is_whole=is_final)
     work.found[place] = Found.of(values, tile.samples, work.measure) if plan.settings.is_measured else None
@@ -334,6 +247,16 @@ def _render_tile(plan, place, work, goal):
     else:
         work.tiles[place] = tile
     return _tile(plan, place, values, is_final)
+
+
+def _report_bad(plan, film, pixels, work):
+    """Tell `work` of the samples of a film that were not finite, and who made the first of them."""
+    place, sample = film.first_bad
+    pixel = pixels.part(np.array([place]))
+    number = culprit(plan, pixel, sample)
+    name = "" if number is None else plan.scene.objects[number].name
+    work.report_bad(film.bad_samples, name, (int(pixel.px[0]), int(pixel.py[0])))
+    film.bad_samples = 0
 
 
 def _tile(plan, place, values, is_final):

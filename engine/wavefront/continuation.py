@@ -71,9 +71,10 @@ def survive(plan, rays, beta):
     brightest = np.maximum(np.maximum(beta[0], beta[1]), beta[2])
     # Siblings share what one ray would have carried.
     brightest *= np.float32(rays.split)
-    alive = brightest > 0
+    # What is no number goes on, to be counted and told of where it meets light.
+    alive = ~(brightest <= 0)
     if rays.depth < ROULETTE_DEPTH:
         return alive, np.ones_like(brightest)
     q = np.minimum(brightest * np.float32(1 / FAINT), 1)
-    alive &= plan.numbers.independent(rays, Dimension.ROULETTE) < q
+    alive &= ~(plan.numbers.independent(rays, Dimension.ROULETTE) >= q)
     return alive, q

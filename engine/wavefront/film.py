@@ -30,7 +30,8 @@ class Film:
         self.sums = {p.key: self._gathering(p, pixels) for p in passes}
         self.samples = np.zeros(pixels, np.int64)
         self._weight = np.zeros(pixels)
-        self.bad_samples = 0
+        # How many samples were not finite, and of the first of them: the place of its pixel, and its number.
+        self.bad_samples, self.first_bad = 0, ()
 
     def open(self, samples, window, weights=(), first=0):
         """Start `samples` more samples, from number `first` on, of the pixels `window`, a slice or places (M,), each once.
@@ -83,6 +84,9 @@ class Film:
             whole = self.radiance.sum(dtype=np.float64)
         if not np.isfinite(whole):
             bad = ~np.isfinite(self.radiance).all(axis=0)
+            if not self.bad_samples:
+                sample, place = divmod(int(bad.argmax()), bad.size // self._count)
+                self.first_bad = int(np.arange(self.samples.size)[self._window][place]), self._first + sample
             self.bad_samples += np.count_nonzero(bad)
             self.radiance[:, bad] = 0
             for p in self._parts:

@@ -52,6 +52,7 @@ class Triangles:
     material        (F,) intp, a row of `Materials`
     first_emitter   triangles from here on emit, up to
     first_moving    from where on they move
+    runs            (R,) the first of triangles that are of one object, and `run_object` (R,) int32 the number of that
     """
 
     shape: np.ndarray
@@ -61,6 +62,12 @@ class Triangles:
     material: np.ndarray
     first_emitter: int
     first_moving: int
+    runs: np.ndarray
+    run_object: np.ndarray
+
+    def owner(self, prim):
+        """The number of the object that a triangle is of."""
+        return int(self.run_object[np.searchsorted(self.runs, prim, side="right") - 1])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -179,6 +186,7 @@ def compile_world(
     except AccelError as error:
         raise SceneError(f"scene '{scene.name}': {error}") from error
     column, corner_normals = _smooth(parts, keep, shape[9:]) if smooth else (np.zeros(0, np.intp), np.zeros((9, 0), np.float32))
+    runs = np.nonzero(np.diff(owner, prepend=-1))[0]
     triangles = Triangles(
         shape=shape,
         extent=extent,
@@ -187,6 +195,8 @@ def compile_world(
         material=material,
         first_emitter=first_emitter,
         first_moving=first_moving,
+        runs=runs,
+        run_object=owner.take(runs),
     )
     last = slice(triangles.first_emitter, triangles.first_moving)
     emitters = Emitters.of(

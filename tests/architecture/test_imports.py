@@ -24,7 +24,7 @@ LAYERS = (
     ("integrators", "passes", "measured"),
     ("allotment",),
     ("ending",),
-    ("plan",),
+    ("plan", "work"),
     ("rendering",),
     ("io",),
     ("libraries",),

@@ -1,14 +1,15 @@
 """`render` as a generator: progress, errors, cancelling (faults J3, J4, J19)."""
 
 import gc
+import re
 import threading
 
 import numpy as np
 import pytest
 
-from glanz.engine import GlanzError, Requirements, SceneError, prepare, render, render_image, render_plan, rendering
+from glanz.engine import GlanzError, PointLight, Requirements, SceneError, prepare, render, render_image, render_plan, rendering
 from glanz.engine.integrators.path import Path
-from glanz.engine.wavefront import direct, passing, visibility
+from glanz.engine.wavefront import continuation, direct, passing, visibility
 from glanz.tests import helpers as h, scenes
 
 SETTINGS = h.settings(width=24, height=20, samples=4, max_depth=2, tile_size=8, threads=2)
@@ -167,9 +168,43 @@ def test_bad_samples_are_black_counted_and_told(monkeypatch, bad):
     changed = (values != clean).any(axis=0)
     assert 0 < changed.sum() <= 24 * 20 * 4 / 100 + 1
     assert (values[:, changed] < clean[:, changed]).all()
-    counted = [int(w.split()[0]) for w in image.warnings]
-    assert sum(counted) == changed.sum()
-    assert image.warnings[0].endswith("samples were not finite and count as black")
+    first, in_all = image.warnings
+    assert first.is_lost and first.datablock == ("object", "quad")
+    x, y = (int(number) for number in re.search(r"pixel \((\d+), (\d+)\)", first).groups())
+    assert changed[y, x]
+    assert in_all == f"{changed.sum()} samples in all were not finite and count as black"
+
+
+def overflowing():
+    """A lamp at the limit of float32 that lights a near wall beyond it, and a far one within: those named so, left and right."""
+    walls = [h.thing(h.quad((x, 0, z), (1, 0, 0), (0, 2, 0), name=name)) for name, x, z in (("near", -0.5, 0.0), ("far", 0.5, -30.0))]
+    lamp = PointLight(name="lamp", position=(-0.5, 0, 0.1), intensity=(1e38,) * 3)
+    return h.scene(walls, [lamp])
+
+
+def test_who_made_a_sample_that_is_not_finite_is_named():
+    """By its pixel and its object; what is sound next to it stays."""
+    image = render_image(overflowing(), h.replaced(SETTINGS, max_depth=0))
+    named = [warning for warning in image.warnings if warning.datablock[0]]
+    assert [warning.datablock for warning in named] == [("object", "near")]
+    values = image.passes["Combined"][..., :3]
+    assert np.isfinite(values).all()
+    assert (values > 0).any() and (values == 0).any()
+
+
+def test_light_that_was_lost_on_the_way_is_told_of_where_it_was_lost(monkeypatch):
+    """A path whose throughput is no number is black when it meets light, but it was the surface before that made it so."""
+    thinned = continuation.thinned
+
+    def poisoned(plan, rays, scattered):
+        scattered.beta[:, ::7] = np.nan
+        return thinned(plan, rays, scattered)
+
+    monkeypatch.setattr(continuation, "thinned", poisoned)
+    floor = h.thing(h.quad((0, 0, 0), (9, 0, 0), (0, 9, 0), name="floor"))
+    ceiling = h.thing(h.quad((0, 0, 5), (90, 0, 0), (0, 90, 0), name="ceiling"), h.lambert(0.5, emission=1.0))
+    image = render_image(h.scene([floor, ceiling]), h.replaced(SETTINGS, max_depth=1, integrator="path_blind"))
+    assert {warning.datablock for warning in image.warnings if warning.is_lost} == {("object", "floor")}
 
 
 def test_errors_of_the_scene_come_with_the_first_item():
@@ -233,8 +268,9 @@ def test_the_tiles_that_threads_are_at_are_told(monkeypatch):
     assert {tile.x for progress in rest for tile in progress.tiles} == {0, 8, 16}
 
 
-def test_the_frame_refines_in_rounds_to_the_same_bits():
+def test_the_frame_refines_in_rounds_to_the_same_bits(monkeypatch):
     """After each round the whole frame has that many samples, and shows their mean; the last picture is that of one round."""
+    monkeypatch.setattr(rendering, "SHOW_SECONDS", 600.0)
     plan, _ = prepare(scenes.everything(), h.replaced(SETTINGS, samples=7))
     rounds, image = [], np.zeros((20, 24, 4), np.float32)
     for progress in render_plan(plan, ends=(1, 3)):

@@ -1,0 +1,112 @@
+"""What the threads of one render share."""
+
+import math
+import threading
+from contextlib import contextmanager
+
+from .ending import Reached
+from .errors import SceneWarning
+from .measured import picture_error
+
+
+class Work:
+    """What the threads of one render share.
+
+    tiles   those that are begun, by their place
+    found   what is `Found` of all, by their place, or None
+    measure how errors are measured, one of `MEASURES`
+    is_cut  whether the time was over before a round was
+    """
+
+    def __init__(self, tiles, ending, measure, cancelled=None):
+        self.ending = ending
+        self.measure = measure
+        self.found = dict.fromkeys(tiles)
+        self.is_cut = False
+        self._stops = [threading.Event(), *((cancelled,) if cancelled else ())]
+        self.tiles = {}
+        self._lock = threading.Lock()
+        self._pixels = sum(width * height for _, _, width, height in tiles)
+        self._finished = {}
+        self._bad_samples = {}
+        self._warnings = []
+        self._unfinished = []
+        self._places = {}
+
+    @contextmanager
+    def at(self, place):
+        """Say that a thread is at `place` while the block lasts."""
+        with self._lock:
+            self._places[place] = True
+        try:
+            yield
+        finally:
+            with self._lock:
+                del self._places[place]
+
+    @property
+    def places(self):
+        """Where threads are just now."""
+        with self._lock:
+            return tuple(self._places)
+
+    def stop(self):
+        """Let all threads give up."""
+        self._stops[0].set()
+
+    def is_stopped(self):
+        """Whether the threads are to give up."""
+        return any(event.is_set() for event in self._stops)
+
+    def reached(self, before, samples):
+        """How far the frame is after a round from the samples `before` it to `samples`; not all pixels got there if it is late."""
+        found = tuple(self.found.values())
+        error = math.inf if None in found else picture_error(found, self.measure)
+        if self.is_cut or self.is_stopped():
+            return Reached(before, error, "time" if self.is_cut else "")
+        mean = samples if None in found else self.ending.mean_samples(found)
+        return Reached(mean, error, self.ending.ended_by(mean, error))
+
+    def finish(self, tile, share):
+        """The `share` of the work on a tile that is done, in [0, 1]."""
+        _, _, width, height = tile
+        with self._lock:
+            self._finished[tile] = share * width * height
+
+    def show(self, tile):
+        """Have an unfinished `Tile` shown."""
+        with self._lock:
+            self._unfinished.append(tile)
+
+    def take_unfinished(self):
+        """The tiles to show since the last time."""
+        with self._lock:
+            tiles, self._unfinished = self._unfinished, []
+        return tiles
+
+    def report_bad(self, count, name, pixel):
+        """Say that `count` samples were not finite, the first in a `pixel` (x, y) where it met the object of this `name`; "": none."""
+        line = f"samples are not finite and count as black, such as of the pixel {pixel} from the top left"
+        with self._lock:
+            if name not in self._bad_samples:
+                kind = "object" if name else ""
+                self._warnings.append(SceneWarning(line if name else f"{line}, where their light adds up", kind, name, is_lost=True))
+            self._bad_samples[name] = self._bad_samples.get(name, 0) + count
+
+    def bad_in_all(self):
+        """A warning that says how many samples were not finite, if there were any."""
+        with self._lock:
+            count = sum(self._bad_samples.values())
+        return (SceneWarning(f"{count} samples in all were not finite and count as black"),) if count else ()
+
+    @property
+    def done(self):
+        """The share of all work that is done, in [0, 1]."""
+        with self._lock:
+            return sum(self._finished.values()) / self._pixels
+
+    def take_warnings(self):
+        """What came up since the last time."""
+        with self._lock:
+            warnings, self._warnings = self._warnings, []
+        return tuple(warnings)
