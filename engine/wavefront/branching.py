@@ -37,7 +37,8 @@ def _contributing(plan, batch):
     """The rays of a batch that count at least `min_contribution`; nothing counts 0."""
     brightest = np.maximum(np.maximum(batch.beta[0], batch.beta[1]), batch.beta[2])
     # A ray that splits off counts its share only: what is asked is what all its siblings count together.
-    alive = (brightest > 0) & (brightest * np.float32(batch.split) >= plan.settings.min_contribution)
+    # What is no number goes on, to be counted and told of where it meets light.
+    alive = ~((brightest <= 0) | (brightest * np.float32(batch.split) < plan.settings.min_contribution))
     return batch if alive.all() else batch.take(np.nonzero(alive)[0])
 
 

@@ -9,7 +9,7 @@ import pytest
 
 from glanz.engine import GlanzError, PointLight, Requirements, SceneError, prepare, render, render_image, render_plan, rendering
 from glanz.engine.integrators.path import Path
-from glanz.engine.wavefront import continuation, direct, passing, visibility
+from glanz.engine.wavefront import branching, continuation, direct, passing, visibility
 from glanz.tests import helpers as h, scenes
 
 SETTINGS = h.settings(width=24, height=20, samples=4, max_depth=2, tile_size=8, threads=2)
@@ -192,19 +192,23 @@ def test_who_made_a_sample_that_is_not_finite_is_named():
     assert (values > 0).any() and (values == 0).any()
 
 
-def test_light_that_was_lost_on_the_way_is_told_of_where_it_was_lost(monkeypatch):
+@pytest.mark.parametrize("integrator", ["path", "path_blind", "path_naive", "distributed"])
+def test_light_that_was_lost_on_the_way_is_told_of_where_it_was_lost(monkeypatch, integrator):
     """A path whose throughput is no number is black when it meets light, but it was the surface before that made it so."""
-    thinned = continuation.thinned
+    leaving = continuation.leaving
 
-    def poisoned(plan, rays, scattered):
+    def poisoned(*where):
+        scattered = leaving(*where)
         scattered.beta[:, ::7] = np.nan
-        return thinned(plan, rays, scattered)
+        return scattered
 
-    monkeypatch.setattr(continuation, "thinned", poisoned)
+    for module in (continuation, branching):
+        monkeypatch.setattr(module, "leaving", poisoned)
     floor = h.thing(h.quad((0, 0, 0), (9, 0, 0), (0, 9, 0), name="floor"))
     ceiling = h.thing(h.quad((0, 0, 5), (90, 0, 0), (0, 90, 0), name="ceiling"), h.lambert(0.5, emission=1.0))
-    image = render_image(h.scene([floor, ceiling]), h.replaced(SETTINGS, max_depth=1, integrator="path_blind"))
+    image = render_image(h.scene([floor, ceiling]), h.replaced(SETTINGS, max_depth=1, integrator=integrator))
     assert {warning.datablock for warning in image.warnings if warning.is_lost} == {("object", "floor")}
+    assert np.isfinite(image.passes["Combined"]).all()
 
 
 def test_errors_of_the_scene_come_with_the_first_item():
