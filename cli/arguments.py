@@ -69,6 +69,15 @@ def _add_render(commands):
         help="leave the film clear where the camera would see the world: alpha is what is covered",
     )
     command.add_argument(
+        "--checkpoint",
+        metavar="FILE",
+        help="keep what is rendered so far in this file, and go on from it where it exists: to the same picture as in one go. "
+        "It is deleted when all is written. A frame number replaces its #",
+    )
+    command.add_argument(
+        "--checkpoint-seconds", type=seconds, default=60.0, metavar="S", help="about how often it is written: what a crash may cost; 60"
+    )
+    command.add_argument(
         "--sample-range",
         type=sample_range,
         metavar="FIRST,END",
@@ -180,6 +189,17 @@ def sample_range(text):
     if not match or int(match[1]) >= int(match[2]):
         raise argparse.ArgumentTypeError(f"'{text}' is not a range of samples, such as 0,16 and then 16,32")
     return int(match[1]), int(match[2])
+
+
+def seconds(text):
+    """A time above 0 [s]."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0 < value < float("inf"):
+        raise argparse.ArgumentTypeError(f"'{text}' is not a time in seconds above 0, such as 60")
+    return value
 
 
 def resolution(text):

@@ -2,10 +2,12 @@
 
 import dataclasses
 import json
+import os
 
 from ..addon.settings import border as border_in_pixels
-from ..engine import Requirements, SceneError, __version__, render_image, validate, write_exr, write_scene
+from ..engine import Checkpoint, Requirements, SceneError, __version__, render_image, validate, write_exr, write_scene
 from ..engine.io.atomic import check_writable
+from ..engine.saved import NO_CHECKPOINT
 from . import curve, curve_files
 from .outputs import default_output, numbered
 from .sources import open_source
@@ -50,11 +52,18 @@ def render(arguments, terminal):
         for warning in shot.warnings:
             terminal.warn(warning)
         with terminal.stopper.orderly():
-            image = _picture(shot, settings, terminal)
+            checkpoint = NO_CHECKPOINT
+            if arguments.checkpoint:
+                path = numbered(arguments.checkpoint, frame, is_sequence)
+                checkpoint = Checkpoint(path, shot.scene, settings, arguments.checkpoint_seconds)
+                if os.path.exists(path):
+                    terminal.note(f"goes on from '{path}'")
+            image = _picture(shot, settings, terminal, checkpoint)
             for output in outputs:
                 path = numbered(output, shot.frame, is_sequence)
                 _write(image, path, source)
                 terminal.wrote(path)
+            checkpoint.remove()
 
 
 def info(arguments, terminal):
@@ -148,7 +157,7 @@ def _overridden(settings, arguments):
     return dataclasses.replace(settings, **values)
 
 
-def _picture(shot, settings, terminal):
+def _picture(shot, settings, terminal, checkpoint):
     x0, y0, x1, y1 = settings.region
     title = f"{shot.scene.name}{'' if shot.frame is None else f', frame {shot.frame}'}: {x1 - x0}x{y1 - y0}, {settings.samples} samples"
     with terminal.progress(title) as show:
@@ -161,7 +170,7 @@ def _picture(shot, settings, terminal):
             show(progress.done)
             terminal.stopper.check()
 
-        image = render_image(shot.scene, settings, on_progress)
+        image = render_image(shot.scene, settings, on_progress, checkpoint)
     terminal.note(_reached(image.metadata))
     if not image.passes:
         raise SceneError("no picture came out: the settings name no passes")

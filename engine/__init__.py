@@ -23,6 +23,7 @@ from .cameras.perspective import PerspectiveCamera
 from .constants import VERSION
 from .errors import FileError, GlanzError, SceneError, SceneWarning
 from .interfaces import albedo_of
+from .io.checkpoint import Checkpoint
 from .io.exr import write_exr
 from .io.ies import parse_ies
 from .io.scene_file import read_scene, write_scene
@@ -131,6 +132,7 @@ __all__ = [
     "BumpMap",
     "CameraData",
     "CheckerTexture",
+    "Checkpoint",
     "Clamp",
     "ColourRamp",
     "Combine",

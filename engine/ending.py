@@ -59,8 +59,9 @@ class Ending:
     costs little, and shorter as it comes near, so that it is not missed by much.
     """
 
-    def __init__(self, settings, ends=()):
-        """The clock starts. `ends` are numbers of samples at which to stop by in any case."""
+    def __init__(self, settings, ends=(), pace=0.0):
+        """The clock starts. `ends` are numbers of samples at which to stop by in any case; `pace` [s], if any, is how long rounds last."""
+        self._pace = pace
         self._begin, self._end = settings.rendered_samples
         self._ends = ends
         self._target = settings.error_target
@@ -72,6 +73,15 @@ class Ending:
         # The last samples and error that were looked at, and the power of the samples that the error falls by: 1/2 for independent ones.
         self._looked, self._slope = (), SLOPES[0]
         self._started = time.monotonic()
+
+    def state(self):
+        """{name: number} of what it has learned, and the seconds that it took, from which `restore` goes on."""
+        return {"looked": list(self._looked), "slope": self._slope, "seconds": self._seconds()}
+
+    def restore(self, state):
+        """Go on from a `state`."""
+        self._looked, self._slope = tuple(state["looked"]), state["slope"]
+        self._started = time.monotonic() - state["seconds"]
 
     def is_late(self):
         """Whether the time is over."""
@@ -93,7 +103,9 @@ class Ending:
         """The number of samples at the end of the round that begins at `samples`, with an `error`: learns how fast that falls."""
         self._look(samples - self._begin, error)
         own = (self._end, *(end for end in self._ends if end > samples), *self._for_error(samples, error), *self._for_time(samples))
-        return min(own)
+        # What is saved has to be before any pixel gets more: rounds of tiles that end with them are saved tile by tile.
+        paced = self._for_pace(samples) if samples > self._begin else ()
+        return min((*own, *paced))
 
     def goals(self, found, samples):
         """{place: how many samples its pixels are to have} of the round that brings the picture to `samples` a pixel.
@@ -144,6 +156,12 @@ class Ending:
         speed = done / max(self._seconds(), 1e-3)
         fits = speed * (self._limit - self._seconds())
         yield samples + max(1, min(done, int(fits / 2)))
+
+    def _for_pace(self, samples):
+        # An error target asks at numbers of samples of its own, or it would depend on how fast the machine is.
+        if self._pace and not self._target:
+            done = samples - self._begin
+            yield samples + max(1, int(done * self._pace / max(self._seconds(), 1e-3)))
 
     def _look(self, samples, error):
         if not (0 < error < math.inf):

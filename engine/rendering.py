@@ -14,6 +14,7 @@ from .measured import Found
 from .plan import Plan
 from .registry import PASSES
 from .requirements import Requirements
+from .saved import NO_CHECKPOINT
 from .scene.validate import validate
 from .wavefront.camera_rays import camera_rays
 from .wavefront.loop import trace
@@ -73,8 +74,8 @@ class Image:
     warnings: tuple = ()
 
 
-def render(scene, settings, ends=()):
-    """Render, yielding `Progress` at least ten times a second until everything is done; `ends` as in `render_plan`.
+def render(scene, settings, ends=(), checkpoint=NO_CHECKPOINT):
+    """Render, yielding `Progress` at least ten times a second until everything is done; `ends` and `checkpoint` as in `render_plan`.
 
     Tiles that take long are shown unfinished now and then. To cancel is to stop iterating: closing the generator stops
     the threads within a batch's bounce. The picture depends neither on threads, tiles nor border. Raises SceneError
@@ -84,7 +85,7 @@ def render(scene, settings, ends=()):
     yield Progress(0.0, warnings=warnings)
     plan = Plan.of(scene, settings, Requirements.of(scene, settings))
     yield Progress(0.0, warnings=_more(plan, warnings))
-    yield from render_plan(plan, ends)
+    yield from render_plan(plan, ends, checkpoint=checkpoint)
 
 
 def prepare(scene, settings, before=None):
@@ -103,32 +104,40 @@ def _more(plan, warnings):
     return tuple(line for line in plan.world.warnings if line not in warnings)
 
 
-def render_plan(plan, ends=(), cancelled=None):
-    """`render` for a `Plan` that is made already.
+def render_plan(plan, ends=(), cancelled=None, checkpoint=NO_CHECKPOINT):
+    """`render` for a `Plan` that is made already. Raises ValueError if the checkpoint is of another plan.
 
     ends       numbers of samples, rising: the whole frame gets as many before any pixel gets more. Tiles come once for each,
                unfinished but for the last; without, each comes when it has all. Where pixels are divided `ends` count for nothing
     cancelled  a `threading.Event` that other threads may set: what is begun is given up within a batch's bounce, and it ends
+    checkpoint where it goes on from, and what it saves now and then, see `saved`: the picture is to the bit what it would be without
     """
     settings = plan.settings
     places = _tiles(settings, plan.tile.longest_side(settings))
-    ending = Ending(settings, ends if plan.tile.most_rounds(settings) == 1 else ())
-    work = Work(places, ending, settings.error_measure, cancelled)
-    reached = Reached(settings.rendered_samples[0])
+    ending = Ending(settings, ends if plan.tile.most_rounds(settings) == 1 else (), checkpoint.seconds)
+    work = Work(places, ending, settings.error_measure, cancelled, keeps=checkpoint.seconds > 0)
+    reached = work.restore(checkpoint.load(), plan)
+    begin = settings.rendered_samples[0]
+    if work.done_with:
+        yield Progress(work.done, tuple(_tile(plan, place, values, is_final=True) for place, values in work.done_with.items()))
     workers = min(settings.threads or os.cpu_count() or 1, len(places))
     with ThreadPoolExecutor(workers, thread_name_prefix="glanz") as pool:
         try:
             while not (reached.ended_by or work.is_stopped()):
                 samples = ending.following(reached.samples, reached.error)
-                goals = ending.goals(work.found, samples)
+                goals = {place: goal for place, goal in ending.goals(work.found, samples).items() if place not in work.done_with}
                 pending = {pool.submit(_work_on, plan, place, work, goal) for place, goal in goals.items()}
                 while pending:
                     finished, pending = wait(pending, POLL_SECONDS, FIRST_COMPLETED)
                     # First the unfinished: a tile among them may be finished by now.
                     tiles = tuple(filter(None, (*work.take_unfinished(), *(future.result() for future in finished))))
                     yield Progress(ending.share(work.done, reached), tiles, work.take_warnings(), work.places, reached)
+                    if reached.samples == begin and checkpoint.is_due():
+                        checkpoint.save(work.saved(reached, has_tiles=False))
                 # Without goals no pixel that has an error may get more.
                 reached = work.reached(reached.samples, samples) if goals else replace(reached, ended_by="samples")
+                if not (reached.ended_by or work.is_stopped()) and checkpoint.is_due():
+                    checkpoint.save(work.saved(reached, has_tiles=True))
             # What ended early has not known that it would.
             tiles = tuple(_tile(plan, place, tile.result(not work.is_cut), is_final=True) for place, tile in work.tiles.items())
             done, tiles = (1.0, tiles) if reached.ended_by else (work.done, ())
@@ -138,10 +147,10 @@ def render_plan(plan, ends=(), cancelled=None):
             pool.shutdown(wait=True, cancel_futures=True)
 
 
-def render_image(scene, settings, on_progress=None):
-    """The whole `Image`; `on_progress`, if given, is called with each `Progress`."""
+def render_image(scene, settings, on_progress=None, checkpoint=NO_CHECKPOINT):
+    """The whole `Image`; `on_progress`, if given, is called with each `Progress`; `checkpoint` as in `render_plan`."""
     x0, y0, x1, y1 = settings.region
-    passes, warnings, reached = gathered(render(scene, settings), settings, on_progress)
+    passes, warnings, reached = gathered(render(scene, settings, (), checkpoint), settings, on_progress)
     outcome = {f"glanz.reached.{name}": value for name, value in reached.facts().items()}
     return Image(x1 - x0, y1 - y0, passes, metadata(scene, settings) | outcome, warnings)
 
@@ -243,6 +252,8 @@ def _render_tile(plan, place, work, goal):
     values = tile.result(is_whole=is_final)
     work.found[place] = Found.of(values, tile.samples, work.measure) if plan.settings.is_measured else None
     if is_final:
+        if work.keeps:
+            work.done_with[place] = values
         work.finish(place, 1)
     else:
         work.tiles[place] = tile

@@ -4,27 +4,33 @@ import math
 import threading
 from contextlib import contextmanager
 
+import numpy as np
+
 from .ending import Reached
 from .errors import SceneWarning
-from .measured import picture_error
+from .measured import Found, picture_error
+from .saved import Saved
 
 
 class Work:
     """What the threads of one render share.
 
     tiles   those that are begun, by their place
+    done_with  {place: {pass: (C, P) float32}} of those that are finished, where a checkpoint keeps them
     found   what is `Found` of all, by their place, or None
     measure how errors are measured, one of `MEASURES`
     is_cut  whether the time was over before a round was
     """
 
-    def __init__(self, tiles, ending, measure, cancelled=None):
+    def __init__(self, tiles, ending, measure, cancelled=None, keeps=False):
+        self.keeps = keeps
         self.ending = ending
         self.measure = measure
         self.found = dict.fromkeys(tiles)
         self.is_cut = False
         self._stops = [threading.Event(), *((cancelled,) if cancelled else ())]
         self.tiles = {}
+        self.done_with = {}
         self._lock = threading.Lock()
         self._pixels = sum(width * height for _, _, width, height in tiles)
         self._finished = {}
@@ -66,6 +72,35 @@ class Work:
             return Reached(before, error, "time" if self.is_cut else "")
         mean = samples if None in found else self.ending.mean_samples(found)
         return Reached(mean, error, self.ending.ended_by(mean, error))
+
+    def saved(self, reached, has_tiles):
+        """The `Saved` of a frame that is as far as `reached`: with what is begun, between rounds; else with finished tiles alone."""
+        with self._lock:
+            bad, done_with = dict(self._bad_samples), dict(self.done_with)
+        tiles = {place: tile.state() for place, tile in self.tiles.items()} if has_tiles else {}
+        return Saved(reached, self.ending.state(), bad, tiles, done_with)
+
+    def restore(self, saved, plan):
+        """Go on from a `Saved`: `Reached`. Raises ValueError where it is of another plan."""
+        if not (saved.tiles or saved.finished):
+            return Reached(plan.settings.rendered_samples[0])
+        if not saved.tiles.keys() | saved.finished.keys() <= self.found.keys():
+            raise ValueError("it is of other tiles")
+        self.ending.restore(saved.ending)
+        self._bad_samples = dict(saved.bad)
+        self.done_with = dict(saved.finished)
+        first, end = plan.settings.rendered_samples
+        for place, state in saved.tiles.items():
+            self.tiles[place] = plan.tile(plan, place)
+            self.tiles[place].restore(state)
+            if plan.settings.is_measured:
+                self.found[place] = Found.of(self.tiles[place].result(is_whole=False), self.tiles[place].samples, self.measure)
+            self.finish(place, self.tiles[place].samples.sum() / (place[2] * place[3] * (end - first)))
+        for place, values in saved.finished.items():
+            if plan.settings.is_measured:
+                self.found[place] = Found.of(values, np.full(place[2] * place[3], end - first), self.measure)
+            self.finish(place, 1)
+        return saved.reached
 
     def finish(self, tile, share):
         """The `share` of the work on a tile that is done, in [0, 1]."""

@@ -33,10 +33,10 @@ def write_scene(path, scene, settings):
     """
     with replacing(path) as temporary, zipfile.ZipFile(temporary, "w", zipfile.ZIP_STORED, allowZip64=True) as file:
         try:
-            encoder = Encoder(ArrayWriter(lambda name, data: _add(file, name, data)))
+            encoder = Encoder(ArrayWriter(lambda name, data: add_entry(file, name, data)))
             content = {"scene": encoder.encode(scene), "settings": encoder.encode(settings)}
             document = {"format": FORMAT, "version": VERSION, "shared": encoder.shared, **content}
-            _add(file, DOCUMENT, json.dumps(document, indent=1, allow_nan=False).encode())
+            add_entry(file, DOCUMENT, json.dumps(document, indent=1, allow_nan=False).encode())
         except (TypeError, ValueError, RecursionError) as error:
             raise FileError(f"cannot write '{path}': {error}") from error
 
@@ -52,7 +52,7 @@ def read_scene(path):
             # Pipes and devices could be read without end.
             raise FileError("it is not a regular file")
         with zipfile.ZipFile(path) as file:
-            _check_entries(file, size)
+            check_entries(file, size)
             document = _parsed(file.read(DOCUMENT))
             decoder = Decoder(ArrayReader(file.read), document.get("shared", []))
             return decoder.decode(document["scene"], "Scene"), decoder.decode(document["settings"], "Settings")
@@ -66,13 +66,14 @@ def read_scene(path):
         raise FileError(f"cannot read '{path}': it is not a Glanz scene, or damaged ({type(error).__name__}: {error})") from error
 
 
-def _add(file, name, data):
+def add_entry(file, name, data):
+    """Write `data` as the entry `name` of a zip, the same bytes whenever."""
     entry = zipfile.ZipInfo(name, FIXED_DATE)
     entry.external_attr = 0o644 << 16
     file.writestr(entry, data)
 
 
-def _check_entries(file, size):
+def check_entries(file, size):
     """Entries must be stored as they are and side by side, so that they cannot unpack to more than the file's `size`."""
     if sum(entry.file_size for entry in file.infolist()) > size:
         raise FileError("its entries claim more bytes than the file has")

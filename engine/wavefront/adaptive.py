@@ -148,6 +148,10 @@ class AdaptiveTile:
             result[p.key] = values.reshape(len(values), -1)
         return shown(self._passes, result)
 
+    def state(self):
+        """Nothing: it is divided in one go."""
+        return {}
+
     @property
     def samples(self):
         """Those of the undivided pixel, (P,) int, of the tile itself."""

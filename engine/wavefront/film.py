@@ -125,6 +125,27 @@ class Film:
             pixels = np.arange(self.samples.size)[self._window]
             self.sums[p.key].add(pixels, number.reshape(-1, pixels.size), weight.reshape(-1, pixels.size))
 
+    def state(self):
+        """{name: array} of all that has been gathered, from which `restore` goes on to the same bits."""
+        state = {"samples": self.samples, "weight": self._weight}
+        for name, part in self._parts_of_state():
+            state |= {f"{name}.{key}": values for key, values in part.state().items()}
+        return state | {f"sum.{key}": total for key, total in self.sums.items() if isinstance(total, np.ndarray)}
+
+    def restore(self, state):
+        """Go on from the `state` of a film of as many pixels and the same passes. Raises ValueError where it is another's."""
+        known = self.state()
+        if known.keys() != state.keys() or any(not name.startswith("ranks.") and v.shape != known[name].shape for name, v in state.items()):
+            raise ValueError("it is of another film")
+        self.samples, self._weight = state["samples"], state["weight"]
+        for name, part in self._parts_of_state():
+            part.restore({key: state[f"{name}.{key}"] for key in part.state()})
+        self.sums |= {key: state[f"sum.{key}"] for key, total in self.sums.items() if isinstance(total, np.ndarray)}
+
+    def _parts_of_state(self):
+        replicates = [("replicates", part) for part in self._replicates]
+        return replicates + [(f"ranks.{key}", total) for key, total in self.sums.items() if isinstance(total, Ranks)]
+
     def pixels(self, is_whole=True):
         """{pass: (C, P) float64} of the samples gathered so far; 0, alpha too, for pixels without any.
 

@@ -32,6 +32,16 @@ class Ranks:
             known, place = np.unique(np.concatenate((known, keys[own])), return_inverse=True)
             self._blocks[number_of_block] = known, np.bincount(place.ravel(), np.concatenate((weights, weight[own])), known.size)
 
+    def state(self):
+        """{name: array} of all that has been added, from which `restore` goes on."""
+        keys, weights = (np.concatenate(columns) for columns in zip(*(self._blocks.values() or (_NOTHING,))))
+        return {"keys": keys, "weights": weights}
+
+    def restore(self, state):
+        """Go on from a `state`."""
+        block = (state["keys"] >> _BITS) // _BLOCK
+        self._blocks = {int(b): (state["keys"][block == b], state["weights"][block == b]) for b in np.unique(block)}
+
     def pairs(self, level):
         """(4, P) float64: number and weight of the things of rank 2 `level` and the next, those that cover most first; 0 for none."""
         keys, weights = (np.concatenate(columns) for columns in zip(*(self._blocks.values() or (_NOTHING,))))

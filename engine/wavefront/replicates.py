@@ -11,6 +11,8 @@ import numpy as np
 
 from .numbers import layout
 
+_STATE = ("samples", "open", "in_open", "count", "closed", "mean", "squares", "known", "variance", "doubt")
+
 
 class Replicates:
     """What replicates of P pixels say of the mean of all samples; in float64 and in the order of samples.
@@ -30,6 +32,15 @@ class Replicates:
         self._mean, self._squares = np.zeros((channels, pixels)), np.zeros((channels, pixels))
         # Of all smaller ones: samples, variance of their sum, and the doubt of that.
         self._known, self._variance, self._doubt = np.zeros(pixels, np.int64), np.zeros((channels, pixels)), np.zeros((channels, pixels))
+
+    def state(self):
+        """{name: array} of all that has been added, from which `restore` goes on."""
+        return {name: getattr(self, f"_{name}") for name in _STATE}
+
+    def restore(self, state):
+        """Go on from a `state`."""
+        for name in _STATE:
+            setattr(self, f"_{name}", state[name])
 
     def add(self, window, first, values):
         """Add samples `first` ... of the pixels `window`, a slice or places: values (C, samples, pixels)."""

@@ -36,6 +36,7 @@ class EvenTile:
     Tiles have longest_side(settings) [px], which they may not exceed, and most_rounds(settings). `rounds()` yields
     (film, what to sample into it) one after the other, and goes on when that has been done; `result(is_whole)` at any
     time is {pass: (C, P) float32} of what has been sampled so far, see `Film.pixels`; `samples` (P,) those that count for the error.
+    What `state()` tells, {} for nothing, another one of the same place goes on from after `restore(state)`.
     """
 
     @staticmethod
@@ -59,6 +60,14 @@ class EvenTile:
     def result(self, is_whole=True):
         """What the film says."""
         return self._film.result(is_whole)
+
+    def state(self):
+        """{name: array} of what has been sampled, see `Film.state`."""
+        return self._film.state()
+
+    def restore(self, state):
+        """Go on from the `state` of such a tile. Raises ValueError where it is another's."""
+        self._film.restore(state)
 
     @property
     def samples(self):

@@ -24,6 +24,7 @@ LAYERS = (
     ("integrators", "passes", "measured"),
     ("allotment",),
     ("ending",),
+    ("saved",),
     ("plan", "work"),
     ("rendering",),
     ("io",),
