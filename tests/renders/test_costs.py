@@ -47,6 +47,8 @@ PLAIN = {
     "maths/warps.py",
     "passes/combined.py",
     "rendering.py",
+    "saved.py",
+    "work.py",
     "samplers/random.py",
     "samplers/stratified.py",
     "scene/settings.py",
