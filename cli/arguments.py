@@ -19,6 +19,7 @@ def parser(version):
     _add_render(commands)
     _add_info(commands)
     _add_export(commands)
+    _add_merge(commands)
     _add_bench(commands)
     return top
 
@@ -116,6 +117,17 @@ def _add_export(commands):
     _add_scene(command)
     _add_frame(command)
     _add_strict(command)
+
+
+def _add_merge(commands):
+    command = commands.add_parser(
+        "merge",
+        allow_abbrev=False,
+        help="make one picture of parts that were rendered apart",
+        description="Merge EXR files of different samples of one picture (glanz render --sample-range), weighed by their samples.",
+    )
+    command.add_argument("parts", nargs="+", metavar="PART", help=".exr file of a part")
+    command.add_argument("-o", "--output", required=True, metavar="OUT", help=".exr file to write")
 
 
 def _add_bench(commands):
@@ -225,6 +237,8 @@ def check_outputs(arguments):
     """Raises ValueError, with a text for users, unless the outputs are names of pictures, each a different one."""
     if arguments.command == "export" and arguments.output.lower().endswith(".blend"):
         raise ValueError(f"output '{arguments.output}' would be taken for a .blend file; give it another ending, such as .glanz")
+    if arguments.command == "merge" and not arguments.output.lower().endswith(".exr"):
+        raise ValueError(f"output '{arguments.output}' is not .exr: what is merged stays linear")
     if arguments.command == "render":
         for path in arguments.output:
             if not path.lower().endswith(SUFFIXES):

@@ -7,6 +7,8 @@ import os
 from ..addon.settings import border as border_in_pixels
 from ..engine import Checkpoint, Requirements, SceneError, __version__, render_image, validate, write_exr, write_scene
 from ..engine.io.atomic import check_writable
+from ..engine.io.exr import read_image
+from ..engine.merging import Part, merged
 from ..engine.saved import NO_CHECKPOINT
 from . import curve, curve_files
 from .outputs import default_output, numbered
@@ -108,6 +110,17 @@ def export(arguments, terminal):
         terminal.warn(warning)
     with terminal.stopper.orderly():
         write_scene(arguments.output, shot.scene, shot.settings)
+    terminal.wrote(arguments.output)
+
+
+def merge(arguments, terminal):
+    """Make one picture of its parts."""
+    check_writable(arguments.output)
+    image = merged([Part.of(path, read_image(path)) for path in arguments.parts])
+    for warning in image.warnings:
+        terminal.warn(warning)
+    with terminal.stopper.orderly():
+        write_exr(arguments.output, image)
     terminal.wrote(arguments.output)
 
 

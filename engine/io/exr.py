@@ -9,6 +9,7 @@ import numpy as np
 
 from ..errors import FileError
 from ..registry import PASSES
+from ..rendering import Image
 from .atomic import cause, replacing
 
 PLAIN = "Combined"
@@ -50,6 +51,25 @@ def read_exr_metadata(path):
     """The strings in the header of an EXR file, {name: str}. Raises FileError, naming `path` and the cause."""
     with _opened(path, header_only=True) as file:
         return {name: value for name, value in file.header().items() if isinstance(value, str)}
+
+
+def read_image(path):
+    """The `Image` of a file as `write_exr` writes it: the passes that are known, with their metadata.
+
+    Raises FileError, naming `path` and the cause: no EXR, or one without such passes.
+    """
+    channels, passes = read_exr(path), {}
+    for name in dict.fromkeys(channel.rpartition(".")[0] or PLAIN for channel in channels):
+        if name not in PASSES:
+            raise FileError(f"cannot read '{path}': its pass '{name}' is none of Glanz's; files that Blender has written cannot be merged")
+        letters = [letter if name == PLAIN else f"{name}.{letter}" for letter in PASSES[name].channels]
+        if not set(letters) <= channels.keys():
+            raise FileError(f"cannot read '{path}': of its pass '{name}' channels are missing")
+        passes[name] = np.stack([channels[letter] for letter in letters], axis=-1)
+    if not passes:
+        raise FileError(f"cannot read '{path}': it has no channels")
+    height, width, _ = next(iter(passes.values())).shape
+    return Image(width, height, passes, read_exr_metadata(path))
 
 
 def channels_of(passes):

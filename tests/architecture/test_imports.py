@@ -27,6 +27,7 @@ LAYERS = (
     ("saved",),
     ("plan", "work"),
     ("rendering",),
+    ("merging",),
     ("io",),
     ("libraries",),
     ("__init__",),
