@@ -244,6 +244,10 @@ class GLANZ_RENDER_PT_performance(GlanzPanel, bpy.types.Panel):
         column.prop(render, "use_persistent_data", text="Persistent Data")
         column.prop(context.scene.glanz, "progress")
         column.prop(context.scene.glanz, "tile_size")
+        column.prop(context.scene.glanz, "checkpoint")
+        row = column.row()
+        row.active = bool(context.scene.glanz.checkpoint)
+        row.prop(context.scene.glanz, "checkpoint_seconds")
 
 
 class GLANZ_VIEWLAYER_PT_passes(GlanzPanel, bpy.types.Panel):

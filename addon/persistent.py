@@ -9,6 +9,7 @@ from dataclasses import fields, is_dataclass, replace
 import numpy as np
 
 from ..engine import Progress, prepare, render_plan
+from ..engine.saved import NO_CHECKPOINT
 from .export import Kept, stamp_of
 
 
@@ -28,7 +29,7 @@ class Persistent:
 
         return go
 
-    def render(self, key, scene, settings, ends=()):
+    def render(self, key, scene, settings, ends=(), checkpoint=NO_CHECKPOINT):
         """As the engine's `render`; nothing is compiled where `scene` differs from the last with this `key` in its camera alone."""
         plan, told, before = self._known.get(key, (None, (), None))
         if plan and _film_aside(plan.settings) == _film_aside(settings) and is_same(_camera_aside(before), _camera_aside(scene)):
@@ -44,7 +45,7 @@ class Persistent:
             plan, told = prepare(scene, settings, before=plan)
             yield Progress(0.0, warnings=told)
         self._known[key] = plan, told, scene
-        yield from render_plan(plan, ends)
+        yield from render_plan(plan, ends, checkpoint=checkpoint)
 
 
 def _has_same_tree(plan, before, scene):

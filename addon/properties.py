@@ -4,7 +4,7 @@ import zlib
 from functools import cache
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
 from . import backend
 
@@ -270,6 +270,26 @@ class GlanzSceneSettings(bpy.types.PropertyGroup):
             ),
         ),
         default="TILES",
+    )
+    checkpoint: StringProperty(
+        name="Checkpoint",
+        description=(
+            "File in which F12 keeps what it has rendered so far, one for each frame, view layer and eye: after a crash, or after Esc, F12 "
+            "goes on from it, to the same picture as in one go, unless something has changed. It is deleted when the picture is done. "
+            "Empty: none. Takes memory for the samples of the picture, and a little time"
+        ),
+        default="",
+        subtype="FILE_PATH",
+    )
+    checkpoint_seconds: FloatProperty(
+        name="Every",
+        description="About how often a checkpoint is written, in seconds: the time that a crash may cost",
+        default=60.0,
+        min=1.0,
+        soft_max=3600.0,
+        max=1e6,
+        subtype="TIME_ABSOLUTE",
+        unit="TIME_ABSOLUTE",
     )
     motion_steps: IntProperty(
         name="Deformation Steps",

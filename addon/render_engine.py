@@ -67,6 +67,7 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
 
     def _render(self, depsgraph):
         from ..engine import Requirements, metadata, render
+        from .checkpoints import checkpoint_of
         from .export import Findings, Kept, export_views
         from .results import Outlines, make_room, outcome, stamp, write_tile
         from .settings import doubling, settings_of
@@ -98,7 +99,8 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
             # The eyes differ in their camera, and in their noise, or it would seem to float in depth.
             settings = replace(settings, seed=settings.seed + bool(number))
             # Closing the generator joins its threads, so none is left when Blender goes on, whatever happens here.
-            with closing(rendering((layer, view), scene, settings, ends)) as progress:
+            checkpoint = checkpoint_of(depsgraph.scene_eval, layer, view, scene, settings, lambda line: warnings.show((line,)))
+            with closing(rendering((layer, view), scene, settings, ends, checkpoint)) as progress:
                 for step in progress:
                     reached = step.reached
                     if step.warnings:
@@ -114,6 +116,7 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
                         break
             if self.is_cancelled():
                 break
+            checkpoint.remove()
         outlines.show(())
         stamp(self, outcome(layer, reached, done, time.monotonic() - begun, len(warnings)))
         self._keep(depsgraph, requirements, findings)

@@ -45,3 +45,4 @@ class NoCheckpoint:
 
 
 NO_CHECKPOINT = NoCheckpoint()
+"""For renders that are not saved on the way."""

@@ -27,12 +27,14 @@ SECONDS = 60.0
 class Checkpoint:
     """The file at `path` for a render of `scene` by `settings`, written about every so many `seconds`.
 
+    on_other  if given, is called with the FileError that there is where the file is of another render, which is begun anew then
     Raises FileError if it cannot be written there.
     """
 
-    def __init__(self, path, scene, settings, seconds=SECONDS):
+    def __init__(self, path, scene, settings, seconds=SECONDS, on_other=None):
         check_writable(path)
         self.seconds = seconds
+        self._on_other = on_other
         self._path = path
         self._identity = identity(scene, settings)
         self._saved_at = time.monotonic()
@@ -44,6 +46,15 @@ class Checkpoint:
         """
         if not Path(self._path).exists():
             return Saved()
+        try:
+            return self._read()
+        except FileError as error:
+            if not self._on_other:
+                raise
+            self._on_other(error)
+            return Saved()
+
+    def _read(self):
         try:
             with zipfile.ZipFile(self._path) as file:
                 check_entries(file, Path(self._path).stat().st_size)
