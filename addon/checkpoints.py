@@ -19,8 +19,7 @@ def checkpoint_of(scene, layer, view, exported, settings, warn):
 
     Raises FileError where it cannot be written.
     """
-    from ..engine import Checkpoint
-    from ..engine.saved import NO_CHECKPOINT
+    from ..engine import NO_CHECKPOINT, Checkpoint
 
     path = path_of(scene, layer, view)
     if path is None:

@@ -8,8 +8,7 @@ from dataclasses import fields, is_dataclass, replace
 
 import numpy as np
 
-from ..engine import Progress, prepare, render_plan
-from ..engine.saved import NO_CHECKPOINT
+from ..engine import NO_CHECKPOINT, Progress, prepare, render_plan
 from .export import Kept, stamp_of
 
 

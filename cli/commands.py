@@ -5,11 +5,10 @@ import json
 import os
 
 from ..addon.settings import border as border_in_pixels
-from ..engine import Checkpoint, Requirements, SceneError, __version__, render_image, validate, write_exr, write_scene
+from ..engine import NO_CHECKPOINT, Checkpoint, Requirements, SceneError, __version__, render_image, validate, write_exr, write_scene
 from ..engine.io.atomic import check_writable
 from ..engine.io.exr import read_image
 from ..engine.merging import Part, merged
-from ..engine.saved import NO_CHECKPOINT
 from . import curve, curve_files
 from .outputs import default_output, numbered
 from .sources import open_source

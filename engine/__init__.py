@@ -36,6 +36,7 @@ from .lights.sun import SunLight
 from .registry import FILTERS, INTEGRATORS, PASSES, SAMPLERS, TEXTURES
 from .rendering import Image, Progress, Tile, gathered, metadata, prepare, render, render_image, render_plan
 from .requirements import Requirements
+from .saved import NO_CHECKPOINT
 from .scene import (
     Bitmap,
     Coordinates,
@@ -117,6 +118,7 @@ __version__ = VERSION
 __all__ = [
     "FILTERS",
     "INTEGRATORS",
+    "NO_CHECKPOINT",
     "PASSES",
     "RAY_KINDS",
     "SAMPLERS",
