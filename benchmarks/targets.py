@@ -30,21 +30,21 @@ SEEDS, SIDE, MOST = 20, 32, 2**14
 QUICK = {"seeds": 4, "side": 16}
 
 
-def main(words=None):
+def main(words=None, workers=None):
     names, is_quick = asked("benchmarks.targets", __doc__, "scene", SCENES, "16 pixels wide, 4 seeds: to see that it works", words)
     effort = {"seeds": SEEDS, "side": SIDE} | (QUICK if is_quick else {})
     folder = ROOT / "docs" if not is_quick and set(names) == set(SCENES) else ROOT / "out" / "targets"
     folder.mkdir(parents=True, exist_ok=True)
-    rows = {}
+    results = {"facts": describe_machine() | effort | {"target": TARGET, "most": MOST}, "scenes": {}}
     # One thread each: what a picture costs does not matter here.
-    with ProcessPoolExecutor() as pool:
+    with ProcessPoolExecutor(workers) as pool:
         for name, found in zip(names, pool.map(measured, names, *([effort[key]] * len(names) for key in effort)), strict=True):
-            rows[name] = found
+            results["scenes"][name] = found
             print(row(name, found), file=sys.stderr, flush=True)
-    results = {"facts": describe_machine() | effort | {"target": TARGET, "most": MOST}, "scenes": rows}
-    (folder / "targets.json").write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
-    (folder / "targets.md").write_text(text := page(results), encoding="utf-8")
-    print(text)
+            # What is measured is not lost if a later scene fails.
+            (folder / "targets.json").write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
+            (folder / "targets.md").write_text(page(results), encoding="utf-8")
+    print(page(results))
 
 
 def measured(name, seeds, side):
@@ -117,11 +117,11 @@ def page(results):
     lines = [
         "# Errors that are asked for, and reached",
         "",
-        f"`make bench-targets` path traces every sample scene, {facts['side']} pixels wide, with an error target of {100 * TARGET:g} % and",
-        f"{facts['seeds']} seeds. {pictures[0]} of {pictures[1]} pictures reached {LOWEST} to {HIGHEST} times the target; in {good} of",
-        f"{len(ended)} scenes that need no more than {MOST:,} samples 19 of 20 did. Errors are in units of the target. Each picture is",
-        "held against the mean of the others, a reference of 19 times as many samples whose own error is taken off: that is the noise;",
-        "that there is no bias is for tests to say. In so small pictures a single pixel that light is rarely found for counts for much.",
+        f"`make bench-targets` path traces sample scenes, {facts['side']} pixels wide, with an error target of {100 * TARGET:g} % and",
+        f"{facts['seeds']} seeds. {pictures[0]} of {pictures[1]} pictures reached {LOWEST} to {HIGHEST} times the target. {len(ended)} of the",
+        f"{len(scenes)} scenes need no more than {MOST:,} samples; in {good} of these 19 of 20 pictures did. Errors are in units of the target.",
+        "Each picture is held against the mean of the others, a reference of 19 times as many samples whose own error is taken off: that is the",
+        "noise; that there is no bias is for tests to say. In so small pictures a single pixel that light is rarely found for counts for much.",
         "",
         "| scene | reached (median) | 5 to 95 of 100 | stated (mean) | in the bounds | samples |",
         "|---|---|---|---|---|---|",
