@@ -26,7 +26,7 @@ from .work import Work
 LANES = 2**16
 """Paths in a batch: enough to hide Python, few enough for the cache."""
 TOGETHER = 4
-"""Batches that are on the film at a time: what is left of them after a few bounces is followed together."""
+"""Batches that are on the film at a time at most: what is left of them after a few bounces is followed together."""
 POLL_SECONDS = 0.1
 SHOW_SECONDS = 0.5
 """How often a tile that takes long is shown unfinished; what a user who cancels may lose of it."""
@@ -232,7 +232,8 @@ def _render_tile(plan, place, work, goal):
     shown = time.monotonic()
     for number, (film, pixels) in enumerate(tile.rounds()):
         is_first = not film.samples.any()
-        for window, first, count in _batches(begin + film.samples, goal, plan.replicates.edges):
+        for window, first, count in _batches(begin + film.samples, goal, plan.replicates.edges, work):
+            started = time.monotonic()
             # Every pixel has a sample before the time is over.
             if not is_first and work.ending.is_late():
                 work.is_cut = True
@@ -244,6 +245,8 @@ def _render_tile(plan, place, work, goal):
             film.close(is_first=first == begin)
             if film.bad_samples:
                 _report_bad(plan, film, pixels, work)
+            # Nothing is shown, and no time limit seen, but between those that are together.
+            work.pace(time.monotonic() - started, SHOW_SECONDS / 2, TOGETHER)
             work.finish(place, (number + film.samples.sum() / (pixels.px.size * (end - begin))) / tile.most_rounds(plan.settings))
             if time.monotonic() - shown > SHOW_SECONDS:
                 work.show(_tile(plan, place, tile.result(is_whole=False), is_final=False))
@@ -286,8 +289,8 @@ def _camera_batches(plan, pixels, first, count):
         yield rays
 
 
-def _batches(samples, goal, edges):
-    """(window of pixels, first sample, samples) of at most TOGETHER batches, the samples of a window in order.
+def _batches(samples, goal, edges, work):
+    """(window of pixels, first sample, samples) of as many batches as `work` has together, the samples of a window in order.
 
     They bring pixels that have `samples` (P,) to `goal`, a number or (P,). None goes on beyond the samples `edges`.
     """
@@ -297,13 +300,16 @@ def _batches(samples, goal, edges):
         begin, end = way >> 32, way & 0xFFFFFFFF
         pixels = np.nonzero(ways == way)[0]
         at_once = min(pixels.size, LANES)
-        count = TOGETHER * max(1, LANES // at_once)
+        count = max(1, LANES // at_once)
         bounds = (begin, *(int(edge) for edge in edges if begin < edge < end), end)
         for start in range(0, pixels.size, at_once):
             window = _window(pixels[start : start + at_once])
             for lower, upper in pairwise(bounds):
-                for first in range(lower, upper, count):
-                    yield window, first, min(count, upper - first)
+                first = lower
+                while first < upper:
+                    several = min(work.together * count, upper - first)
+                    yield window, first, several
+                    first += several
 
 
 def _window(pixels):

@@ -20,10 +20,12 @@ class Work:
     found   what is `Found` of all, by their place, or None
     measure how errors are measured, one of `MEASURES`
     is_cut  whether the time was over before a round was
+    together  how many batches are on a film at a time, see `pace`
     """
 
     def __init__(self, tiles, ending, measure, cancelled=None, keeps=False):
         self.keeps = keeps
+        self.together = 1
         self.ending = ending
         self.measure = measure
         self.found = dict.fromkeys(tiles)
@@ -101,6 +103,13 @@ class Work:
                 self.found[place] = Found.of(values, np.full(place[2] * place[3], end - first), self.measure)
             self.finish(place, 1)
         return saved.reached
+
+    def pace(self, seconds, most_seconds, most):
+        """Have as many batches together as take less than `most_seconds`, and `most` at most: those that were took `seconds`."""
+        if seconds > most_seconds:
+            self.together = max(1, self.together // 2)
+        elif 2 * seconds < most_seconds:
+            self.together = min(most, 2 * self.together)
 
     def finish(self, tile, share):
         """The `share` of the work on a tile that is done, in [0, 1]."""

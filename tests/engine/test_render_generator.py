@@ -10,6 +10,7 @@ import pytest
 from glanz.engine import GlanzError, PointLight, Requirements, SceneError, prepare, render, render_image, render_plan, rendering
 from glanz.engine.integrators.path import Path
 from glanz.engine.wavefront import branching, continuation, direct, passing, visibility
+from glanz.engine.work import Work
 from glanz.tests import helpers as h, scenes
 
 SETTINGS = h.settings(width=24, height=20, samples=4, max_depth=2, tile_size=8, threads=2)
@@ -209,6 +210,14 @@ def test_light_that_was_lost_on_the_way_is_told_of_where_it_was_lost(monkeypatch
     image = render_image(h.scene([floor, ceiling]), h.replaced(SETTINGS, max_depth=1, integrator=integrator))
     assert {warning.datablock for warning in image.warnings if warning.is_lost} == {("object", "floor")}
     assert np.isfinite(image.passes["Combined"]).all()
+
+
+def test_batches_are_together_as_long_as_they_take_little_time():
+    """Half a second after it has begun a tile is to be seen, and a time limit noticed, however slow a scene is."""
+    work = Work({(0, 0, 8, 8): None}, None, "relative")
+    for seconds, together in ((0.01, 2), (0.01, 4), (0.01, 4), (0.2, 4), (0.3, 2), (0.3, 1), (9.0, 1), (0.1, 2)):
+        work.pace(seconds, 0.25, 4)
+        assert work.together == together, seconds
 
 
 def test_errors_of_the_scene_come_with_the_first_item():
