@@ -34,6 +34,8 @@ NOT_BEGUN = Reached(0)
 """Nothing yet."""
 SLOPES = (0.5, 1.0)
 """How fast errors fall is measured, but not believed to be slower than by chance, or faster than by even samples of what is smooth."""
+STEEPEST = 4.0
+"""Where samples are spread few of them may lower the error much: those of pixels that have most of it."""
 
 
 def _joined(parts):
@@ -144,7 +146,7 @@ class Ending:
         needed, most = self._needed(samples, error), self._begin + 2 * (samples - self._begin)
         if samples >= self._spread_from:
             # Some pixels may get more while others do not, so it can be as near as is worth a look.
-            yield min(max(samples + int(0.8 * (needed - samples)), samples + samples // 32), most)
+            yield min(max(samples + int(0.4 * (needed - samples)), samples + samples // 100), most)
             return
         wanted = min(needed, most)
         yield int(ends[max(np.searchsorted(ends, wanted, side="right") - 1, 0)])
@@ -168,7 +170,7 @@ class Ending:
             return
         if self._looked and samples > self._looked[0]:
             slope = math.log(self._looked[1] / error) / math.log(samples / self._looked[0])
-            self._slope = min(max(slope, SLOPES[0]), SLOPES[1])
+            self._slope = min(max(slope, SLOPES[0]), SLOPES[1] if samples + self._begin < self._spread_from else STEEPEST)
         self._looked = samples, error
 
     def _needed(self, samples, error):
