@@ -185,7 +185,7 @@ class GlanzSceneSettings(bpy.types.PropertyGroup):
         name="Adaptive",
         description=(
             "An error target is reached with more samples where they lower the error more, up to Samples in a pixel, and with fewer "
-            "elsewhere. It begins with 128 samples of every pixel. Off: all have as many, which takes more time where noise is uneven"
+            "elsewhere. It begins when every pixel has 128 samples. Off: all have as many, which takes more time where noise is uneven"
         ),
         default=True,
     )

@@ -16,13 +16,13 @@ from pathlib import Path
 
 import numpy as np
 
-from ..cli.sources import open_source
+from ..cli import curve
 from ..engine import gathered, prepare, render_plan
+from . import small_scenes
 from .__main__ import describe_machine
 from .words import asked
 
 ROOT = Path(__file__).resolve().parents[1]
-SCENES = sorted(path.stem for path in (ROOT / "sample_scenes").glob("*.blend"))
 TARGET = 0.01
 LOWEST, HIGHEST = 0.7, 1.05
 """Times the target: where the reached error is to be."""
@@ -31,9 +31,11 @@ QUICK = {"seeds": 4, "side": 16}
 
 
 def main(words=None, workers=None):
-    names, is_quick = asked("benchmarks.targets", __doc__, "scene", SCENES, "16 pixels wide, 4 seeds: to see that it works", words)
+    names, is_quick = asked(
+        "benchmarks.targets", __doc__, "scene", small_scenes.NAMES, "16 pixels wide, 4 seeds: to see that it works", words
+    )
     effort = {"seeds": SEEDS, "side": SIDE} | (QUICK if is_quick else {})
-    folder = ROOT / "docs" if not is_quick and set(names) == set(SCENES) else ROOT / "out" / "targets"
+    folder = ROOT / "docs" if not is_quick and set(names) == set(small_scenes.NAMES) else ROOT / "out" / "targets"
     folder.mkdir(parents=True, exist_ok=True)
     results = {"facts": describe_machine() | effort | {"target": TARGET, "most": MOST}, "scenes": {}}
     # One thread each: what a picture costs does not matter here.
@@ -52,14 +54,11 @@ def measured(name, seeds, side):
 
     One that needs more than `MOST` samples has one picture, and nothing "reached".
     """
-    source = open_source(str(ROOT / "sample_scenes" / f"{name}.blend"), None, lambda: None)
-    whole = source.shot().settings
-    scale = side / max(whole.width, whole.height)
-    shot = source.shot(size=(max(1, round(scale * whole.width)), max(1, round(scale * whole.height))))
-    settings = replace(shot.settings, integrator="path", sampler="sobol", samples=MOST, threads=1, **asked_for(TARGET))
+    scene, settings = small_scenes.load(name, side, side * 3 // 4)
+    settings = replace(curve.plain(settings), integrator="path", sampler="sobol", samples=MOST, replicates=0, error_target=TARGET)
     pictures, ends = [], []
     for seed in range(seeds):
-        plan, _ = prepare(shot.scene, replace(settings, seed=seed))
+        plan, _ = prepare(scene, replace(settings, seed=seed))
         passes, _, reached = gathered(render_plan(plan), settings)
         pictures.append(passes["Combined"][..., :3].astype(np.float64))
         ends.append(reached)
@@ -69,18 +68,6 @@ def measured(name, seeds, side):
         "reached": [error / TARGET for error in errors(np.stack(pictures))] if reached.ended_by == "error" else [],
         "stated": [end.error / TARGET for end in ends],
         "samples": [end.samples for end in ends],
-    }
-
-
-def asked_for(target):
-    """Settings that end at an error alone."""
-    return {
-        "error_target": target,
-        "time_limit": 0.0,
-        "replicates": 0,
-        "adaptive_threshold": 0.0,
-        "passes": ("Combined",),
-        "sample_range": (),
     }
 
 

@@ -71,17 +71,13 @@ def _slopes(ladders):
 def _threads(rungs, facts):
     walls = {r["size"]: r["wall"] for r in rungs}
     _, settings = LADDERS["threads"].rung(1)
-    rows = [
-        (r["size"], f"{r['wall']:.2f}", f"{r['render']:.2f}", f"{walls[1] / r['wall']:.2f}", _held(r.get("gil", {})))
-        for r in rungs
-    ]
+    rows = [(r["size"], f"{r['wall']:.2f}", f"{r['render']:.2f}", f"{walls[1] / r['wall']:.2f}", _held(r.get("gil", {}))) for r in rungs]
     lines = _table(("threads", "wall [s]", "processor [s]", "speed-up", "GIL held [%]"), rows)
     lines += [
         "",
         "The GIL is held by Python between the calls to Embree and to NumPy's loops, which let go of it; py-spy looks from outside whether",
         "some thread holds it; ± is the standard error of its samples as if they were independent.",
-        "Larger batches hold it for less. "
-        f"Here it is that of {settings.width} x {settings.height} pixels with {settings.samples} samples.",
+        f"Larger batches hold it for less. Here it is that of {settings.width} x {settings.height} pixels with {settings.samples} samples.",
         "",
         f"**A projection, not a measurement**, from up to {max(walls)} threads to {CORES[-1]} cores. By Amdahl's law all wait while one",
         "does what is serial. The lock is modelled by threads that wait for it only when they need it while another has it (the machine",
