@@ -98,8 +98,8 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
             where = ", ".join((*((layer,) if len(depsgraph.scene_eval.view_layers) > 1 else ()), *((view,) if view else ())))
             # The eyes differ in their camera, and in their noise, or it would seem to float in depth.
             settings = replace(settings, seed=settings.seed + bool(number))
-            # Closing the generator joins its threads, so none is left when Blender goes on, whatever happens here.
             checkpoint = checkpoint_of(depsgraph.scene_eval, layer, view, scene, settings, lambda line: warnings.show((line,)))
+            # Closing the generator joins its threads, so none is left when Blender goes on, whatever happens here.
             with closing(rendering((layer, view), scene, settings, ends, checkpoint)) as progress:
                 for step in progress:
                     reached = step.reached

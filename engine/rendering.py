@@ -10,6 +10,7 @@ import numpy as np
 
 from .constants import VERSION
 from .ending import NOT_BEGUN, Ending, Reached
+from .errors import FileError, SceneWarning
 from .measured import Found
 from .plan import Plan
 from .registry import PASSES
@@ -105,7 +106,7 @@ def _more(plan, warnings):
 
 
 def render_plan(plan, ends=(), cancelled=None, checkpoint=NO_CHECKPOINT):
-    """`render` for a `Plan` that is made already. Raises ValueError if the checkpoint is of another plan.
+    """`render` for a `Plan` that is made already. Raises SceneError if the checkpoint is of another plan.
 
     ends       numbers of samples, rising: the whole frame gets as many before any pixel gets more. Tiles come once for each,
                unfinished but for the last; without, each comes when it has all. Where pixels are divided `ends` count for nothing
@@ -133,11 +134,11 @@ def render_plan(plan, ends=(), cancelled=None, checkpoint=NO_CHECKPOINT):
                     tiles = tuple(filter(None, (*work.take_unfinished(), *(future.result() for future in finished))))
                     yield Progress(ending.share(work.done, reached), tiles, work.take_warnings(), work.places, reached)
                     if reached.samples == begin and checkpoint.is_due():
-                        checkpoint.save(work.saved(reached, has_tiles=False))
+                        _save(checkpoint, work, reached, has_tiles=False)
                 # Without goals no pixel that has an error may get more.
                 reached = work.reached(reached.samples, samples) if goals else replace(reached, ended_by="samples")
                 if not (reached.ended_by or work.is_stopped()) and checkpoint.is_due():
-                    checkpoint.save(work.saved(reached, has_tiles=True))
+                    _save(checkpoint, work, reached, has_tiles=True)
             # What ended early has not known that it would.
             tiles = tuple(_tile(plan, place, tile.result(not work.is_cut), is_final=True) for place, tile in work.tiles.items())
             done, tiles = (1.0, tiles) if reached.ended_by else (work.done, ())
@@ -145,6 +146,14 @@ def render_plan(plan, ends=(), cancelled=None, checkpoint=NO_CHECKPOINT):
         finally:
             work.stop()
             pool.shutdown(wait=True, cancel_futures=True)
+
+
+def _save(checkpoint, work, reached, has_tiles):
+    """Keep a checkpoint; where that fails, as on a full disk, the picture is not lost for it."""
+    try:
+        checkpoint.save(work.saved(reached, has_tiles))
+    except FileError as error:
+        work.warn(SceneWarning(f"rendering goes on, but the last checkpoint is old or missing: {error}"))
 
 
 def render_image(scene, settings, on_progress=None, checkpoint=NO_CHECKPOINT):

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 import numpy as np
 
 from .ending import Reached
-from .errors import SceneWarning
+from .errors import SceneError, SceneWarning
 from .measured import Found, picture_error
 from .saved import Saved
 
@@ -37,7 +37,7 @@ class Work:
         self._pixels = sum(width * height for _, _, width, height in tiles)
         self._finished = {}
         self._bad_samples = {}
-        self._warnings = []
+        self._warnings, self._told = [], set()
         self._unfinished = []
         self._places = {}
 
@@ -83,11 +83,21 @@ class Work:
         return Saved(reached, self.ending.state(), bad, tiles, done_with)
 
     def restore(self, saved, plan):
-        """Go on from a `Saved`: `Reached`. Raises ValueError where it is of another plan."""
+        """Go on from a `Saved`: `Reached`. Raises SceneError where it is of another plan, or damaged."""
         if not (saved.tiles or saved.finished):
             return Reached(plan.settings.rendered_samples[0])
+        try:
+            self._restore(saved, plan)
+        except (KeyError, TypeError, ValueError) as error:
+            raise SceneError(f"the checkpoint does not fit what is rendered ({error}); delete it to begin anew") from None
+        return saved.reached
+
+    def _restore(self, saved, plan):
         if not saved.tiles.keys() | saved.finished.keys() <= self.found.keys():
             raise ValueError("it is of other tiles")
+        for (_, _, width, height), values in saved.finished.items():
+            if not set(plan.settings.passes) <= values.keys() or {v.shape[-1] for v in values.values()} != {width * height}:
+                raise ValueError("it has other passes, or tiles of another size")
         self.ending.restore(saved.ending)
         self._bad_samples = dict(saved.bad)
         self.done_with = dict(saved.finished)
@@ -102,7 +112,6 @@ class Work:
             if plan.settings.is_measured:
                 self.found[place] = Found.of(values, np.full(place[2] * place[3], end - first), self.measure)
             self.finish(place, 1)
-        return saved.reached
 
     def pace(self, seconds, most_seconds, most):
         """Have as many batches together as take less than `most_seconds`, and `most` at most: those that were took `seconds`."""
@@ -127,6 +136,13 @@ class Work:
         with self._lock:
             tiles, self._unfinished = self._unfinished, []
         return tiles
+
+    def warn(self, line):
+        """Tell a `SceneWarning`, once."""
+        with self._lock:
+            if line not in self._told:
+                self._told.add(line)
+                self._warnings.append(line)
 
     def report_bad(self, count, name, pixel):
         """Say that `count` samples were not finite, the first in a `pixel` (x, y) where it met the object of this `name`; "": none."""

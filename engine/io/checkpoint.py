@@ -76,7 +76,8 @@ class Checkpoint:
         return time.monotonic() - self._saved_at >= self.seconds
 
     def save(self, saved):
-        """Write a `Saved` in the place of the last one, whole or not at all. Raises FileError."""
+        """Write a `Saved` in the place of the last one, whole or not at all. Raises FileError, after which it is not due for a while."""
+        self._saved_at = time.monotonic()
         head = {"format": FORMAT, "version": VERSION, "identity": self._identity, "bad": saved.bad, "ending": saved.ending}
         head["reached"] = [saved.reached.samples, repr(saved.reached.error), saved.reached.ended_by]
         with replacing(self._path) as temporary, zipfile.ZipFile(temporary, "w", zipfile.ZIP_STORED, allowZip64=True) as file:
@@ -89,6 +90,7 @@ class Checkpoint:
                         np.save(data, values, allow_pickle=False)
                         add_entry(file, f"{kind}/{number}/{place}.npy", data.getvalue())
             add_entry(file, HEAD, json.dumps(head, allow_nan=False).encode())
+        # Writing may take long, and is no work that could be lost.
         self._saved_at = time.monotonic()
 
     def remove(self):

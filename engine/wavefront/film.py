@@ -135,7 +135,9 @@ class Film:
     def restore(self, state):
         """Go on from the `state` of a film of as many pixels and the same passes. Raises ValueError where it is another's."""
         known = self.state()
-        if known.keys() != state.keys() or any(not name.startswith("ranks.") and v.shape != known[name].shape for name, v in state.items()):
+        # How much is ranked is not known before.
+        kinds = [{key: (v.dtype, v.shape[:-1] if key.startswith("ranks.") else v.shape) for key, v in s.items()} for s in (known, state)]
+        if kinds[0] != kinds[1]:
             raise ValueError("it is of another film")
         self.samples, self._weight = state["samples"], state["weight"]
         for name, part in self._parts_of_state():

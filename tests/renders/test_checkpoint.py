@@ -1,5 +1,6 @@
 """What is rendered is not lost: a render goes on from its checkpoint to the same bits (catalogue H4)."""
 
+import errno
 import json
 import os
 import signal
@@ -12,7 +13,7 @@ import numpy as np
 import OpenEXR
 import pytest
 
-from glanz.engine import Checkpoint, FileError, render, write_scene
+from glanz.engine import Checkpoint, FileError, SceneError, render, write_scene
 from glanz.engine.io import checkpoint as module
 from glanz.engine.rendering import gathered
 from glanz.engine.wavefront.film import Film
@@ -154,6 +155,43 @@ def test_a_damaged_file_is_refused_by_name(saved, damage):
     damage(path)
     with pytest.raises(FileError, match=r"cannot go on from '.*a\.checkpoint'"):
         rendered(settings, (), Checkpoint(path, scenes.everything(), settings))
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        (lambda saved: h.replaced(saved, tiles={(7, 0, 8, 8): {}}), "other tiles"),
+        (lambda saved: h.replaced(saved, tiles={place: {} for place in saved.tiles}), "another film"),
+        (lambda saved: h.replaced(saved, ending={}), "looked"),
+        (lambda saved: h.replaced(saved, finished={place: {} for place in saved.tiles}), "other passes"),
+    ],
+    ids=["tiles", "films", "endings", "passes"],
+)
+def test_what_does_not_fit_is_refused_before_the_work(saved, monkeypatch, change, told):
+    """A file that is whole, and says that it is of this render, but is not."""
+    path, settings = saved
+    load = Checkpoint.load
+    monkeypatch.setattr(Checkpoint, "load", lambda self: change(load(self)))
+    with pytest.raises(SceneError, match=rf"the checkpoint does not fit what is rendered \(.*{told}.*\); delete it to begin anew"):
+        rendered(settings, (), Checkpoint(path, scenes.everything(), settings))
+
+
+@pytest.mark.parametrize("ends", [(), (1, 2, 4, 8, 16)], ids=["tiles", "whole frame"])
+def test_a_full_disk_costs_the_checkpoint_and_not_the_picture(ends, tmp_path, monkeypatch):
+    settings = h.settings(**SETTINGS)
+    whole, _ = rendered(settings, ends)
+
+    def full(file, name, data):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(module, "add_entry", full)
+    path = tmp_path / "a.checkpoint"
+    steps = list(render(scenes.everything(), settings, ends, Checkpoint(path, scenes.everything(), settings, 1e-6)))
+    passes, warnings, _ = gathered(steps, settings)
+    assert h.same_bits(passes["Combined"], whole["Combined"])
+    (told,) = warnings
+    assert told == f"rendering goes on, but the last checkpoint is old or missing: cannot write '{path}': No space left on device"
+    assert not list(tmp_path.iterdir())
 
 
 def test_where_nothing_can_be_written_is_said_at_once(tmp_path):
