@@ -59,7 +59,10 @@ def test_a_corridor_of_mirrors_dims_with_every_reflection(integrator, r):
     k = math.floor(length * slope + 0.5)
     assert k == 1000
     settings = h.replaced(WHITTED, integrator=integrator, max_depth=1100)
-    np.testing.assert_allclose(h.pixels(scene, settings), r**k, rtol=1e-4)
+    # In float32 0.999 is 2e-8 off, and so its power 2e-5: what is asked of 1,000 products is the power of the reflectance that they have.
+    image = h.pixels(scene, settings)
+    np.testing.assert_allclose(image, float(np.float32(r)) ** k, rtol=2e-6 if r < 1 else 0)
+    np.testing.assert_allclose(image, r**k, rtol=3e-5)
     assert not h.pixels(scene, h.replaced(settings, max_depth=k - 2)).any()
 
 

@@ -19,12 +19,12 @@ IMAGE_DISTANCE = 1 / (1 / FOCAL_LENGTH - 1 / FOCUS)
 """Where the sensor is behind the lens when it is focused: 51.282 mm."""
 
 
-def on_the_sensor(lens_rays=PerspectiveCamera.lens_rays, n=400_000):
+def on_the_sensor(lens_rays=PerspectiveCamera.lens_rays, n=400_000, aperture=APERTURE):
     """The cone of rays of one film position, sharp at FOCUS, where it meets the plane at OBJECT: (2, n) [m], as large as its image.
 
     By reciprocity a point of that plane is imaged to a circle of the same size.
     """
-    lens = Lens(radius=APERTURE / 2, focus_distance=FOCUS)
+    lens = Lens(radius=aperture / 2, focus_distance=FOCUS)
     k = h.table(PerspectiveCamera(lens=lens).row(1, 1))
     points = round_aperture(k, h.uniform(5, n)) * np.array([k.lens_width, k.lens_height])
     o, d = lens_rays(k, np.zeros(n), np.zeros(n), points)
@@ -32,10 +32,10 @@ def on_the_sensor(lens_rays=PerspectiveCamera.lens_rays, n=400_000):
     return at[:2] * IMAGE_DISTANCE / OBJECT
 
 
-def check_circle(lens_rays=PerspectiveCamera.lens_rays):
+def check_circle(lens_rays=PerspectiveCamera.lens_rays, aperture=APERTURE):
     """E[r^2] = (c / 2)^2 / 2 at level ALPHA (detects 0.4 %), the largest r = c / 2, and uniform over the disk."""
-    x, y = on_the_sensor(lens_rays)
-    radius = CIRCLE / 2
+    x, y = on_the_sensor(lens_rays, aperture=aperture)
+    radius = CIRCLE / 2 * aperture / APERTURE
     share = (x * x + y * y) / radius**2
     assert h.mean_is(share, 0.5)
     assert 1 - 1e-4 <= share.max() <= 1 + 1e-9
@@ -48,6 +48,28 @@ def test_the_circle_of_confusion_has_its_closed_form():
     """G2."""
     assert abs(CIRCLE / 0.320513e-3 - 1) < 1e-5
     check_circle()
+
+
+@pytest.mark.parametrize("aperture", [1e-6, 1e-3, 1.0])
+def test_the_circle_grows_with_the_aperture(aperture):
+    """G2 from a thousandth of a millimetre to a metre; none at 0, see the contracts of cameras."""
+    check_circle(aperture=aperture)
+
+
+@pytest.mark.parametrize("k", [-40, 40])
+def test_a_power_of_two_as_scale_changes_no_bit_of_what_is_out_of_focus(k):
+    """A2, G3 with an open lens, a thing in focus and one behind it."""
+
+    def picture(scale):
+        camera = PerspectiveCamera(
+            world_from_camera=h.affine(translation=(0, 0, 4 * scale)), lens=Lens(radius=0.25 * scale, focus_distance=4.0 * scale)
+        )
+        things = [
+            h.thing(h.quad((0, 0, z * scale), (scale, 0, 0), (0, scale, 0), name=f"{z}"), h.lambert(0, emission=1.0 + z)) for z in (0, 2)
+        ]
+        return h.pixels(h.scene(things, camera=camera, world=0.5), h.settings())
+
+    assert h.same_bits(picture(2.0**k), picture(1.0))
 
 
 def test_the_circle_catches_a_focus_off_by_one_percent_and_a_lens_without_its_middle():

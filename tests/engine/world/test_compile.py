@@ -49,6 +49,21 @@ def test_outside_stays_outside(linear):
     assert (facing > 0).all() or np.linalg.cond(linear) > 4
 
 
+@pytest.mark.parametrize("scales", [(1e-6, 1, 1e6), (1e6, 1e-6, -1), (1e-6, 1e-6, 1), (-1e6, 1, 1)], ids=str)
+def test_outside_stays_outside_of_what_is_a_million_times_longer_than_wide(scales):
+    """A14 at its end: normals point out, across the facets, and are unit to the rounding of float32.
+
+    Around the camera; what is thinner than 2^-24 of its distance from it has facets of no area.
+    """
+    camera = h.PerspectiveCamera.look_at((5, 6, 7), (6, 7, 8))
+    world = world_of(h.thing(h.icosphere(2), matrix=h.affine(np.diag(scales), (5, 6, 7))), camera=camera)
+    v0, e1, e2, n = world.triangles.shape.astype(np.float64).reshape(4, 3, -1)
+    assert n.shape[1] == 320
+    assert (h.dots(n, v0 + (e1 + e2) / 3 - render_space(world, [[5], [6], [7]])) > 0).all()
+    across = np.cross(e1, e2, axis=0)
+    np.testing.assert_allclose(h.dots(n, across), np.linalg.norm(across, axis=0), rtol=1e-6)
+
+
 def test_geometry_is_rounded_once():
     """World vertices in float64, rebased and scaled, then rounded: each within half a unit of float32."""
     mesh = h.Mesh(name="star", vertices=np.random.default_rng(1).standard_normal((3, 30)), triangles=np.arange(30).reshape(-1, 3).T)
