@@ -84,6 +84,8 @@ def _settings(**changes):
         "branches": 16,
         "min_contribution": 0.0,
         "light_falloff": True,
+        "clamp_direct": 0.0,
+        "clamp_indirect": 0.0,
     }
     return defaults | changes
 

@@ -113,6 +113,30 @@ class GlanzSceneSettings(bpy.types.PropertyGroup):
         ),
         default=True,
     )
+    clamp_direct: FloatProperty(
+        name="Clamp Direct",
+        description=(
+            "Radiance in W/(m\u00b2 sr) that light may have at most which is seen itself or sent on by one surface: brighter light is "
+            "scaled down to it. Fewer bright specks for a picture that is too dark; how much light that takes away is told at the end. "
+            "0 is no limit. Costs no time"
+        ),
+        default=0.0,
+        min=0.0,
+        soft_max=100.0,
+        max=1e30,
+    )
+    clamp_indirect: FloatProperty(
+        name="Clamp Indirect",
+        description=(
+            "Radiance in W/(m\u00b2 sr) that light may have at most which two surfaces or more have sent on, one path and light at a time: "
+            "10 takes most of the bright specks of caustics away, and their light. How much of all light that is, is told at the end. "
+            "0 is no limit. Costs no time"
+        ),
+        default=0.0,
+        min=0.0,
+        soft_max=100.0,
+        max=1e30,
+    )
     seed: IntProperty(
         name="Seed",
         description="Another number gives other noise of the same amount in the same time; the same number gives the same picture",

@@ -16,6 +16,8 @@ _OWN = (
     "branches",
     "min_contribution",
     "light_falloff",
+    "clamp_direct",
+    "clamp_indirect",
     "seed",
     "sampler",
     "pixel_filter",

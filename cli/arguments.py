@@ -48,6 +48,8 @@ def _add_render(commands):
         ("max-transparent", int, "transparent surfaces that light passes between two bounces"),
         ("branches", int, "rays that distributed ray tracing splits into at the first hit"),
         ("min-contribution", float, "what a ray must count at least to be followed in whitted and distributed, 0 to 1"),
+        ("clamp-direct", float, "scale light down that is brighter [W m^-2 sr^-1], seen itself or off one surface; 0: none"),
+        ("clamp-indirect", float, "the same for light off more surfaces: less noise, a picture that is too dark by what is told"),
         ("seed", int, "another number, other noise"),
         ("replicates", int, "independent sets of samples, which tell the error; 0: 8 where it is asked for, else 1"),
         ("error-target", float, "end where the standard error of the picture is this small, such as 0.01; 0: none"),

@@ -22,6 +22,8 @@ OVERRIDES = (
     "max_transparent",
     "branches",
     "min_contribution",
+    "clamp_direct",
+    "clamp_indirect",
     "seed",
     "replicates",
     "error_target",

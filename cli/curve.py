@@ -128,7 +128,8 @@ def measure(scene, settings, integrators, samplers, depths, samples, on_progress
 
 def plain(settings):
     """The same settings for the picture alone, with a number of samples that is known beforehand and the same in all pixels."""
-    return replace(settings, passes=("Combined",), sample_range=(), adaptive_threshold=0.0, replicates=1, error_target=0.0, time_limit=0.0)
+    unbiased = replace(settings, passes=("Combined",), clamp_direct=0.0, clamp_indirect=0.0)
+    return replace(unbiased, sample_range=(), adaptive_threshold=0.0, replicates=1, error_target=0.0, time_limit=0.0)
 
 
 def reference(scene, settings, max_depth, samples, on_progress):

@@ -18,16 +18,19 @@ class Reached:
     samples   of each pixel, on average where an error target has spread them; some may have more where the time was over
     error     that of the picture, see `measured.picture_error`; infinite where unknown
     ended_by  "samples", "error" or "time": what ended it; "" where it goes on, or was cancelled
+    clamped   the share of the light that clamping has taken away so far
     """
 
     samples: int
     error: float = math.inf
     ended_by: str = ""
+    clamped: float = 0.0
 
     def facts(self):
         """What a file should say of it, {str: str}; the error is a number, 0.01 is 1 %."""
         error = f"{self.error:.6g}" if math.isfinite(self.error) else "not measured"
-        return {"samples": str(self.samples), "error": error, "ended_by": self.ended_by or "cancelled"}
+        told = {"samples": str(self.samples), "error": error, "ended_by": self.ended_by or "cancelled"}
+        return told | ({"clamped": f"{self.clamped:.4g}"} if self.clamped else {})
 
 
 NOT_BEGUN = Reached(0)

@@ -19,6 +19,8 @@ ALIKE = (
     "samples",
     "seed",
     "max_depth",
+    "clamp_direct",
+    "clamp_indirect",
     "pixel_filter",
     "replicates",
     "adaptive_threshold",

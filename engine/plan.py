@@ -19,6 +19,7 @@ from .scene.values import Scene
 from .wavefront import dispersion, light_path, media
 from .wavefront.adaptive import AdaptiveTile
 from .wavefront.camera_rays import bladed_aperture, round_aperture, seen_from, start_at, through_the_lens, through_the_pinhole
+from .wavefront.clamping import ClampedFilm
 from .wavefront.clear_film import STRAIGHT, hidden, stay_clear, stay_straight, straight_at_first
 from .wavefront.clip import clip_row, start_in_range, to_the_end_of_range
 from .wavefront.cones import (
@@ -46,6 +47,7 @@ from .wavefront.direct import (
 )
 from .wavefront.emission import add_emission, even_shine, textured_shine
 from .wavefront.escape import add_background, add_environment, add_light_hits, add_light_hits_beyond
+from .wavefront.film import Film
 from .wavefront.holdouts import hold_out
 from .wavefront.loop import few_wait, none_wait
 from .wavefront.motion import (
@@ -111,6 +113,7 @@ class Plan:
     on_leaving         stages (plan, rays, surface, reflection, scattered) that renew what scattered rays carry
     first_hits         the passes that record where camera rays hit
     tile               how the pixels of a tile are sampled, see `wavefront.tiles`
+    film               what gathers so many pixels (pixels, passes, replicates), see `wavefront.film`
     wait               what becomes of few rays (waiting, rays), see `wavefront.loop`
     passes             those that are gathered: what the settings ask for, what that is divided by, what tells the error
     last_depth         the depth of the last rays that are traced
@@ -161,6 +164,7 @@ class Plan:
     first_hits: tuple
     passes: tuple
     tile: type
+    film: object
     scatter: object
     wait: object
     shading_normals: object
@@ -251,6 +255,7 @@ class Plan:
         place = world.frame.points(camera.position[:, None])[:, 0]
         row = camera.row(settings.width, settings.height, scale) | (clip_row(camera, scale) if is_clipped else {})
         splits = needs.SPLIT_LIGHT in requirements
+        limits = settings.clamp_direct, settings.clamp_indirect
         # Where each channel has an index of its own nothing is chosen at random.
         squeezes = not integrator.splits_specular and any(hasattr(lobe.k, "ior") for lobe in world.materials.lobes if lobe.bsdf.is_specular)
         return cls(
@@ -329,6 +334,7 @@ class Plan:
             first_hits=tuple(p for p in gathered if p.records.startswith("first hit")),
             passes=gathered,
             tile=AdaptiveTile if needs.ADAPTIVE in requirements else EvenTile,
+            film=partial(ClampedFilm, limits=limits) if any(limits) else Film,
             scatter=integrator.scatter,
             wait=none_wait if integrator.splits_specular else few_wait,
             shading_normals=smooth_normals if smooth else flat_normals,

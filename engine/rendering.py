@@ -142,7 +142,7 @@ def render_plan(plan, ends=(), cancelled=None, checkpoint=NO_CHECKPOINT):
             # What ended early has not known that it would.
             tiles = tuple(_tile(plan, place, tile.result(not work.is_cut), is_final=True) for place, tile in work.tiles.items())
             done, tiles = (1.0, tiles) if reached.ended_by else (work.done, ())
-            yield Progress(done, tiles, work.bad_in_all(), reached=reached)
+            yield Progress(done, tiles, tuple(work.lost_in_all()), reached=reached)
         finally:
             work.stop()
             pool.shutdown(wait=True, cancel_futures=True)
@@ -207,6 +207,8 @@ def metadata(scene, settings, layer="", requirements=None):
         "glanz.adaptive_sampling": str(settings.adaptive_sampling),
         "glanz.time_limit": f"{settings.time_limit:g} s",
         "glanz.max_depth": str(settings.max_depth),
+        "glanz.clamp_direct": f"{settings.clamp_direct:g}",
+        "glanz.clamp_indirect": f"{settings.clamp_indirect:g}",
         "glanz.seed": str(settings.seed),
         "glanz.adaptive_threshold": f"{settings.adaptive_threshold:g}",
         "glanz.adaptive_levels": str(settings.adaptive_levels),
@@ -252,6 +254,7 @@ def _render_tile(plan, place, work, goal):
             if not trace(spread, _camera_batches(spread, pixels.part(window), first, count), film, work.is_stopped):
                 return None
             film.close(is_first=first == begin)
+            work.count_light(*film.light)
             if film.bad_samples:
                 _report_bad(plan, film, pixels, work)
             # Nothing is shown, and no time limit seen, but between those that are together.

@@ -12,6 +12,7 @@ class Saved:
     reached   how far the whole frame is
     ending    {name: number} of what the `Ending` has learned, and how long it took
     bad       {name of an object: samples that were not finite}
+    light     what there would be without clamping, and what that has taken away, sums of all pixels
     tiles     {place: {name: array}} of tiles that are begun, see `Film.state`
     finished  {place: {pass: (C, P) float32}} of those that are done
     """
@@ -19,6 +20,7 @@ class Saved:
     reached: Reached = NOT_BEGUN
     ending: dict = field(default_factory=dict)
     bad: dict = field(default_factory=dict)
+    light: tuple = (0.0, 0.0)
     tiles: dict = field(default_factory=dict)
     finished: dict = field(default_factory=dict)
 

@@ -37,6 +37,7 @@ class Work:
         self._pixels = sum(width * height for _, _, width, height in tiles)
         self._finished = {}
         self._bad_samples = {}
+        self._light = (0.0, 0.0)
         self._warnings, self._told = [], set()
         self._unfinished = []
         self._places = {}
@@ -71,16 +72,16 @@ class Work:
         found = tuple(self.found.values())
         error = math.inf if None in found else picture_error(found, self.measure)
         if self.is_cut or self.is_stopped():
-            return Reached(before, error, "time" if self.is_cut else "")
+            return Reached(before, error, "time" if self.is_cut else "", self.clamped)
         mean = samples if None in found else self.ending.mean_samples(found)
-        return Reached(mean, error, self.ending.ended_by(mean, error))
+        return Reached(mean, error, self.ending.ended_by(mean, error), self.clamped)
 
     def saved(self, reached, has_tiles):
         """The `Saved` of a frame that is as far as `reached`: with what is begun, between rounds; else with finished tiles alone."""
         with self._lock:
-            bad, done_with = dict(self._bad_samples), dict(self.done_with)
+            bad, light, done_with = dict(self._bad_samples), self._light, dict(self.done_with)
         tiles = {place: tile.state() for place, tile in self.tiles.items()} if has_tiles else {}
-        return Saved(reached, self.ending.state(), bad, tiles, done_with)
+        return Saved(reached, self.ending.state(), bad, light, tiles, done_with)
 
     def restore(self, saved, plan):
         """Go on from a `Saved`: `Reached`. Raises SceneError where it is of another plan, or damaged."""
@@ -100,6 +101,7 @@ class Work:
                 raise ValueError("it has other passes, or tiles of another size")
         self.ending.restore(saved.ending)
         self._bad_samples = dict(saved.bad)
+        self._light = saved.light
         self.done_with = dict(saved.finished)
         first, end = plan.settings.rendered_samples
         for place, state in saved.tiles.items():
@@ -153,11 +155,26 @@ class Work:
                 self._warnings.append(SceneWarning(line if name else f"{line}, where their light adds up", kind, name, is_lost=True))
             self._bad_samples[name] = self._bad_samples.get(name, 0) + count
 
-    def bad_in_all(self):
-        """A warning that says how many samples were not finite, if there were any."""
+    def count_light(self, whole=0.0, removed=0.0):
+        """Count light that there would be, and what clamping has taken away of it."""
+        with self._lock:
+            self._light = self._light[0] + whole, self._light[1] + removed
+
+    @property
+    def clamped(self):
+        """The share of the light that clamping has taken away."""
+        with self._lock:
+            whole, removed = self._light
+        return removed / whole if removed and whole else 0.0
+
+    def lost_in_all(self):
+        """Warnings that say how many samples were not finite, and how much light was clamped, if there were any."""
         with self._lock:
             count = sum(self._bad_samples.values())
-        return (SceneWarning(f"{count} samples in all were not finite and count as black"),) if count else ()
+        if count:
+            yield SceneWarning(f"{count} samples in all were not finite and count as black")
+        if share := self.clamped:
+            yield SceneWarning(f"clamping has taken away {100 * share:.2g} % of the light: the picture is darker than the scene by so much")
 
     @property
     def done(self):

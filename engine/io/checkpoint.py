@@ -18,7 +18,7 @@ from .records import Encoder
 from .scene_file import DAMAGED, add_entry, check_entries
 
 FORMAT = "glanz checkpoint"
-VERSION = 1
+VERSION = 2
 HEAD = "checkpoint.json"
 SECONDS = 60.0
 """Between two of them: what a crash may cost."""
@@ -79,7 +79,8 @@ class Checkpoint:
         """Write a `Saved` in the place of the last one, whole or not at all. Raises FileError, after which it is not due for a while."""
         self._saved_at = time.monotonic()
         head = {"format": FORMAT, "version": VERSION, "identity": self._identity, "bad": saved.bad, "ending": saved.ending}
-        head["reached"] = [saved.reached.samples, repr(saved.reached.error), saved.reached.ended_by]
+        head["light"] = saved.light
+        head["reached"] = [saved.reached.samples, repr(saved.reached.error), saved.reached.ended_by, saved.reached.clamped]
         with replacing(self._path) as temporary, zipfile.ZipFile(temporary, "w", zipfile.ZIP_STORED, allowZip64=True) as file:
             for kind in ("tiles", "finished"):
                 parts = getattr(saved, kind)
@@ -109,7 +110,7 @@ def identity(scene, settings):
 
 
 def _saved(head, read):
-    samples, error, ended_by = head["reached"]
+    samples, error, *how = head["reached"]
     parts = {
         kind: {
             tuple(place): {name: read(f"{kind}/{number}/{i}.npy") for i, name in enumerate(names)}
@@ -117,4 +118,4 @@ def _saved(head, read):
         }
         for kind in ("tiles", "finished")
     }
-    return Saved(Reached(samples, float(error), ended_by), head["ending"], head["bad"], **parts)
+    return Saved(Reached(samples, float(error), *how), head["ending"], head["bad"], tuple(head["light"]), **parts)

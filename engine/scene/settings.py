@@ -41,6 +41,9 @@ class Settings:
     branches       rays that distributed ray tracing splits into at the first hit; a quarter of them at each further one
     min_contribution  what a ray must count at least to be followed in Whitted's and distributed ray tracing, in [0, 1]: epsilon_r
     light_falloff  whether the illumination model of 'whitted_phong' lets light fall off with distance
+    clamp_direct   the brightest channel [W m^-2 sr^-1] that light may have which is seen itself, or sent on by one surface; brighter
+                   light is scaled down, and the picture too dark by what is told at the end. 0: none is
+    clamp_indirect  the same for light that more surfaces have sent on
     seed           any integer; equal seeds give equal noise
     sampler        name of a sampler
     pixel_filter   name of a pixel filter
@@ -71,6 +74,8 @@ class Settings:
     branches: int = 16
     min_contribution: float = 0.0
     light_falloff: bool = True
+    clamp_direct: float = 0.0
+    clamp_indirect: float = 0.0
     seed: int = 0
     sampler: str = "sobol"
     pixel_filter: str = "blackman_harris"
@@ -112,6 +117,10 @@ class Settings:
             raise SceneError(f"setting filter_width is {self.filter_width!r} px, allowed: above 0 up to 10")
         if not (isinstance(self.error_target, (int, float)) and 0.0 <= self.error_target < math.inf):
             raise SceneError(f"setting error_target is {self.error_target!r}, allowed: from 0, which is none")
+        for name in ("clamp_direct", "clamp_indirect"):
+            value = getattr(self, name)
+            if isinstance(value, bool) or not (isinstance(value, (int, float)) and 0.0 <= value < math.inf):
+                raise SceneError(f"setting {name} is {value!r} W m^-2 sr^-1, allowed: from 0, which is none")
         if self.error_measure not in ERROR_MEASURES:
             raise SceneError(f"setting error_measure is {self.error_measure!r}, allowed: {', '.join(ERROR_MEASURES)}")
         if not (isinstance(self.time_limit, (int, float)) and 0.0 <= self.time_limit < math.inf):

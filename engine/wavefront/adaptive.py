@@ -29,7 +29,7 @@ from ..constants import ONE_MINUS_EPS32
 from ..maths.hashing import mix
 from ..registry import PASSES
 from .cones import WIDTHS
-from .film import Film, shown
+from .film import shown
 from .tiles import Pixels, rectangle
 
 _COLOURS = "Combined"
@@ -106,6 +106,7 @@ class AdaptiveTile:
         settings = plan.settings
         self._passes = plan.passes
         self._sampled = plan.passes if PASSES[_COLOURS] in plan.passes else (*plan.passes, PASSES[_COLOURS])
+        self._new_film = plan.film
         self._replicates = settings.replicate_sizes
         self._threshold = settings.adaptive_threshold or math.inf
         self._levels = settings.adaptive_levels
@@ -161,7 +162,7 @@ class AdaptiveTile:
         return samples[own_y - y :, own_x - x :][:own_height, :own_width].ravel()
 
     def _film(self, cells):
-        return Film(cells, self._sampled, self._replicates)
+        return self._new_film(cells, self._sampled, self._replicates)
 
     def _to_divide(self, level, x, y):
         """Which of the cells x, y (P,) of a level differ from those around them, if they matter for the tile."""

@@ -20,6 +20,9 @@ class Film:
     recorded  {pass: (C, slots) float32} of those that record something along the way, see `interfaces.Pass`; of "ranks" a list of them
     """
 
+    light = ()
+    """What a batch would have brought, and what was taken away of it, where anything is, see `clamping`."""
+
     def __init__(self, pixels, passes, replicates=(1,)):
         """For `pixels` (P,) whose samples are in `replicates` of such sizes."""
         self.passes = passes

@@ -4,8 +4,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .film import Film
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pixels:
@@ -51,7 +49,7 @@ class EvenTile:
 
     def __init__(self, plan, place):
         self._pixels = Pixels(*rectangle(*place))
-        self._film = Film(self._pixels.px.size, plan.passes, plan.settings.replicate_sizes)
+        self._film = plan.film(self._pixels.px.size, plan.passes, plan.settings.replicate_sizes)
 
     def rounds(self):
         """All pixels in one round."""

@@ -85,7 +85,7 @@ def test_settings_are_drawn():
 )
 def test_settings_of_another_integrator_are_not_drawn(integrator, names):
     bpy.context.scene.glanz.integrator = integrator
-    assert set(_drawn("GLANZ_RENDER_PT_light_paths")) == {"max_depth", "max_transparent"} | names
+    assert set(_drawn("GLANZ_RENDER_PT_light_paths")) == {"max_depth", "max_transparent", "clamp_direct", "clamp_indirect"} | names
 
 
 def test_panoramas_can_be_edited():
@@ -208,7 +208,21 @@ def _tooltips(settings):
     return found
 
 
-UNITS = ("unit", "metre", "white", "pixel", "bounces", "from 0 to 1", "is 1 %", "seconds", "parts", "rays that", "shapes that", "sets that")
+UNITS = (
+    "unit",
+    "w/(m",
+    "metre",
+    "white",
+    "pixel",
+    "bounces",
+    "from 0 to 1",
+    "is 1 %",
+    "seconds",
+    "parts",
+    "rays that",
+    "shapes that",
+    "sets that",
+)
 NUMBERS_OF_NO_UNIT = {"seed", "priority", "max_transparent"}
 
 

@@ -31,6 +31,8 @@ ODD = {
     "branches": 99,
     "min_contribution": 0.9,
     "light_falloff": False,
+    "clamp_direct": 3.0,
+    "clamp_indirect": 2.0,
 }
 """Settings that no preset has."""
 
