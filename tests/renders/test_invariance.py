@@ -200,6 +200,7 @@ def test_one_pixel_is_the_mean_of_many():
     fine = h.pixels(scene, h.settings(width=16, height=16, samples=64, max_depth=1))
     coarse = [h.pixels(scene, h.settings(width=1, height=1, samples=4096, max_depth=1, seed=s))[1, 0, 0] for s in range(12)]
     assert h.mean_is(coarse, fine[1].mean(dtype=np.float64), floor=1e-3)
+    assert not h.mean_is(coarse, 1.02 * fine[1].mean(dtype=np.float64), floor=1e-3)
 
 
 @pytest.mark.parametrize("size", [(1, 1), (1, 7), (16384, 1), (1, 16384)], ids=str)
