@@ -49,10 +49,10 @@ def columns(rows, dtype=np.float32):
 def frozen(array, dtype, shape, subject, name):
     """`array` as a read-only C-contiguous array of `dtype`; raises ValueError unless shape and numbers fit.
 
-    `shape` gives each axis its length, None for any. An array that already fits is not copied.
+    `shape` gives each axis its length, None for any. An array that already fits is not copied. What `dtype` cannot hold is inf.
     """
     try:
-        with np.errstate(invalid="ignore"):
+        with np.errstate(invalid="ignore", over="ignore"):
             result = np.ascontiguousarray(array, dtype=dtype)
     except (TypeError, ValueError, OverflowError) as error:
         raise ValueError(f"{subject}: {name} is not an array of numbers ({error})") from None

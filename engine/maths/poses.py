@@ -66,9 +66,10 @@ def segment(count, time):
 
 
 def between(keys, time):
-    """What lies at `time` in [0, 1] on straight lines between `keys` (K, ...)."""
+    """What lies at `time` in [0, 1] on straight lines between `keys` (K, ...); nan between what is not finite."""
     i, f = segment(len(keys), time)
-    return (1 - f) * keys[i] + f * keys[i + 1]
+    with np.errstate(over="ignore", invalid="ignore"):
+        return (1 - f) * keys[i] + f * keys[i + 1]
 
 
 def quaternion(rotation):

@@ -82,18 +82,7 @@ class Film:
 
     def close(self, is_first):
         """Gather the batch into the pixels; `is_first` says that it begins with sample 0."""
-        # Not a number or infinite: such a sample is lost, and must not take its pixel with it.
-        with np.errstate(invalid="ignore"):
-            whole = self.radiance.sum(dtype=np.float64)
-        if not np.isfinite(whole):
-            bad = ~np.isfinite(self.radiance).all(axis=0)
-            if not self.bad_samples:
-                sample, place = divmod(int(bad.argmax()), bad.size // self._count)
-                self.first_bad = int(np.arange(self.samples.size)[self._window][place]), self._first + sample
-            self.bad_samples += np.count_nonzero(bad)
-            self.radiance[:, bad] = 0
-            for p in self._parts:
-                self.recorded[p.key][:, bad] = 0
+        self._drop_bad()
         for replicates in self._replicates:
             radiance = self.radiance.reshape(3, self._count, -1)
             replicates.add(self._window, self._first, radiance * self._weights[:, None] if len(self._weights) else radiance)
@@ -109,10 +98,27 @@ class Film:
             is_weighted = len(self._weights) and p.reduction == "mean"
             total = self.sums[p.key][:, self._window]
             for i in range(self._count):
-                total += samples[:, i] * self._weights[i] if is_weighted else samples[:, i]
+                # What counts more than once may be beyond float32.
+                total += np.multiply(samples[:, i], self._weights[i], dtype=np.float64) if is_weighted else samples[:, i]
             self.sums[p.key][:, self._window] = total
         self.samples[self._window] += self._count
         self._weight[self._window] += sum(self._weights) if len(self._weights) else self._count
+
+    def _drop_bad(self):
+        """Not a number or infinite: such a sample is lost, and must not take its pixel with it; so is what only a pass has of it."""
+        bad = dark = _not_finite(self.radiance)
+        self.radiance[:, dark] = 0
+        for p in (p for p in self.passes if p.records and p.reduction != "ranks"):
+            values = self.recorded[p.key]
+            if p in self._parts:
+                values[:, dark] = 0
+            lost = _not_finite(values)
+            values[:, lost] = 0
+            bad = np.union1d(bad, lost) if lost.size else bad
+        if bad.size and not self.bad_samples:
+            sample, place = divmod(int(bad[0]), self._slots // self._count)
+            self.first_bad = int(np.arange(self.samples.size)[self._window][place]), self._first + sample
+        self.bad_samples += bad.size
 
     def _gathering(self, p, pixels):
         """What gathers a pass."""
@@ -167,6 +173,15 @@ class Film:
         return shown(self.passes, self.pixels(is_whole))
 
 
+def _not_finite(values):
+    """The slots (M,) of values (C, slots) of which any is not a number or infinite."""
+    # All together first, for there is hardly ever one.
+    with np.errstate(invalid="ignore"):
+        if np.isfinite(values.sum(dtype=np.float64)):
+            return np.zeros(0, np.intp)
+    return np.nonzero(~np.isfinite(values).all(axis=0))[0]
+
+
 def _rows(p):
     """How many numbers a pass writes down of each path."""
     return getattr(p, "rows", len(p.channels))
@@ -190,6 +205,17 @@ def shown(passes, values):
         if p.divided_by:
             # By another pass, or by the second half of its own rows.
             value, whole = value[: len(p.channels)], values[p.divided_by][-len(p.channels) :]
-            value = np.divide(value, whole, out=np.zeros_like(value), where=whole != 0)
-        result[p.key] = value.astype(np.float32)
+            with np.errstate(over="ignore"):
+                value = np.divide(value, whole, out=np.zeros_like(value), where=whole != 0)
+        result[p.key] = _float32(value)
+    return result
+
+
+def _float32(value):
+    """Finite numbers stay finite."""
+    with np.errstate(over="ignore"):
+        result = value.astype(np.float32)
+    if not np.isfinite(result).all():
+        beyond = np.isinf(result) & np.isfinite(value)
+        result[beyond] = np.copysign(np.finfo(np.float32).max, value[beyond])
     return result

@@ -1,6 +1,7 @@
 """Where the light of a sample became a number that is none: its path is followed once more, and every surface is remembered."""
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -47,5 +48,6 @@ def culprit(plan, pixel, sample):
 
     meet = plan.interact
     witness.open(1, slice(0, 1), (), sample)
-    trace(replace(plan, interact=interact, wait=none_wait), (camera_rays(plan, pixel, sample, 1),), witness)
+    # The ray is made only where numbers that are none are expected.
+    trace(replace(plan, interact=interact, wait=none_wait), map(partial(camera_rays, plan, pixel, sample), (1,)), witness)
     return None if witness.prim is None else plan.world.triangles.owner(witness.prim)

@@ -21,7 +21,7 @@ class Media:
     absorbs     (M + 1,) bool: whether it does
     ior         (M + 1,) float32 index of refraction
     spread      (M + 1,) float32: how much more it is at Fraunhofer's line F than at C
-    behind      (F,) intp: the medium behind each triangle, -1 where there is none
+    behind      (F,) intp: the medium behind each triangle, -1 where there is none; (1,) where no triangle is left
     """
 
     absorption: np.ndarray
@@ -51,7 +51,8 @@ class Media:
             absorbs=absorption.any(axis=0),
             ior=ior.astype(np.float32),
             spread=spread.astype(np.float32),
-            behind=np.where(is_open.take(material), bodies.rank.take(owner), -1),
+            # Rays that meet nothing look it up too.
+            behind=np.where(is_open.take(material), bodies.rank.take(owner), -1) if material.size else np.full(1, -1),
         )
 
 
