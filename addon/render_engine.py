@@ -32,6 +32,8 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
     viewport = None
     # What is kept from frame to frame, see `persistent`.
     persistent = None
+    # Whether a view layer of the frame was rendered, or failed to be.
+    has_rendered = False
 
     def __init__(self, *args, **kwargs):
         # Blender runs this twice for each engine, so there is nothing here.
@@ -49,12 +51,19 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
                 self.persistent.kept.forget(depsgraph)
 
     def render_frame_finish(self):
-        """Called by Blender when all view layers of a frame are rendered."""
+        """Called by Blender when all view layers of a frame are rendered, which may be none."""
         if self.persistent:
             self.persistent.kept.tidy()
+        if not self.has_rendered:
+            # Blender would save a picture that it does not have, which is a crash.
+            message = "no view layer is rendered: switch on Use for Rendering in the View Layer properties"
+            self.report({"ERROR"}, message)
+            command_line.end_after_failure(message)
+        self.has_rendered = False
 
     def render(self, depsgraph):
         """Called by Blender for each view layer of each frame."""
+        self.has_rendered = True
         # Blender knows when it was cancelled; what is finished stays.
         with (errors_logged if self.is_preview else errors_shown)(self), suppress(Cancelled):
             backend.load_or_raise()

@@ -50,9 +50,9 @@ def validate(scene, settings):
 
 def check_camera(camera):
     """Raises SceneError for a camera that sees nothing: it is not finite, or out of range."""
-    if not np.isfinite(camera.world_from_camera).all() or not np.linalg.det(camera.world_from_camera[:3, :3]):
+    if not np.isfinite(camera.world_from_camera).all() or _flattens(camera.world_from_camera):
         raise SceneError(f"camera '{camera.name}': its transform is not finite or flattens space")
-    if not np.isfinite(camera.motion).all() or not np.linalg.det(camera.motion[:, :3, :3]).all():
+    if not np.isfinite(camera.motion).all() or _flattens(camera.motion):
         raise SceneError(f"camera '{camera.name}': its motion is not finite or flattens space")
     # Parallel rays may start behind the camera as well.
     least = getattr(camera, "least_clip_start", 0.0)
@@ -62,6 +62,13 @@ def check_camera(camera):
         )
     camera.lens.check(camera.name)
     camera.check()
+
+
+def _flattens(matrices):
+    """Whether any of matrices (..., 4, 4) leaves no volume."""
+    # Of huge ones the volume is inf.
+    with np.errstate(over="ignore", invalid="ignore"):
+        return not np.linalg.det(matrices[..., :3, :3]).all()
 
 
 def torn(o):

@@ -17,6 +17,13 @@ def test_bodies_of_which_no_triangle_is_left_are_not_there():
     np.testing.assert_allclose(image.passes["Combined"][..., :3], 0.5, rtol=1e-6)
 
 
+def test_a_camera_whose_frame_is_huge_sees_without_a_complaint():
+    """1e120 m per unit: the volume is more than float64 holds."""
+    camera = h.scene().camera
+    image = render_image(h.scene(world=0.5, camera=h.replaced(camera, world_from_camera=np.diag((1e120, 1e120, 1e120, 1)))), h.settings())
+    assert np.isfinite(image.passes["Combined"]).all()
+
+
 def test_a_shape_that_is_not_finite_at_both_times_leaves_out_its_triangles_alone():
     """Between an infinite place and its opposite there is none."""
     shapes = np.repeat(h.quad().vertices[None], 2, axis=0)
