@@ -244,6 +244,7 @@ class GLANZ_RENDER_PT_performance(GlanzPanel, bpy.types.Panel):
         row = column.row()
         row.enabled = render.threads_mode == "FIXED"
         row.prop(render, "threads")
+        column.prop(context.scene.glanz, "precision")
         column.prop(render, "use_persistent_data", text="Persistent Data")
         column.prop(context.scene.glanz, "progress")
         column.prop(context.scene.glanz, "tile_size")

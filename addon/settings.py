@@ -30,6 +30,7 @@ _OWN = (
     "replicates",
     "adaptive_threshold",
     "adaptive_levels",
+    "precision",
     "tile_size",
     "motion_steps",
 )

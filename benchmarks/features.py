@@ -137,6 +137,7 @@ def features(scene, settings):
         "whitted": {"integrator": "whitted"},
         "distributed": {"integrator": "distributed", "branches": 8},
         "path_blind": {"integrator": "path_blind"},
+        "exact": {"precision": "exact"},
         "adaptive": {"adaptive_threshold": 0.1, "adaptive_levels": 2},
         **{f"sampler_{key}": {"sampler": key} for key in ("sobol", "blue_noise", "multijitter", "random")},
     }

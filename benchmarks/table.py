@@ -54,6 +54,7 @@ ROWS = (
             ("sampler_random", "random"),
         )
     ),
+    ("features", "exact", "Cornell box in double / in single precision, processor time", "", 1.6),
     ("features", "principled", "Cornell box with / without: a Principled material", "", None),
     ("features", "default", "Blender's default material all over / its lobes with constants", "", 1.15),
     ("features", "pictures", "a Principled material with three pictures / with constants", "", 2.0),

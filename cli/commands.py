@@ -30,6 +30,7 @@ OVERRIDES = (
     "error_measure",
     "adaptive_sampling",
     "time_limit",
+    "precision",
     "threads",
     "adaptive_threshold",
     "adaptive_levels",

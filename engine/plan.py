@@ -212,6 +212,7 @@ class Plan:
             has_holdouts,
             before,
             asked,
+            settings.real,
         )
         can_reflect = bool(world.materials.lobes)
         is_clear = settings.film_transparent
@@ -265,10 +266,10 @@ class Plan:
             world=world,
             place=place,
             replicates=layout(settings.replicate_sizes),
-            numbers=Numbers(SAMPLERS[settings.sampler], settings.replicate_sizes[0]),
+            numbers=Numbers(SAMPLERS[settings.sampler], settings.replicate_sizes[0], settings.real),
             filter=FILTERS[settings.pixel_filter],
             camera=type(camera),
-            camera_k=columns([row]),
+            camera_k=columns([row], settings.real),
             camera_poses=Poses.of((Path.of_camera(scene.camera, world.frame),)) if follows else None,
             carry=(
                 *(((TIME, start_time),) if follows or world.movers else ()),
@@ -334,7 +335,7 @@ class Plan:
             first_hits=tuple(p for p in gathered if p.records.startswith("first hit")),
             passes=gathered,
             tile=AdaptiveTile if needs.ADAPTIVE in requirements else EvenTile,
-            film=partial(ClampedFilm, limits=limits) if any(limits) else Film,
+            film=partial(ClampedFilm, real=settings.real, limits=limits) if any(limits) else partial(Film, real=settings.real),
             scatter=integrator.scatter,
             wait=none_wait if integrator.splits_specular else few_wait,
             shading_normals=smooth_normals if smooth else flat_normals,
@@ -365,10 +366,10 @@ class Plan:
             return True
         settings = self.settings
         x, y = (((np.arange(_GRID) + 0.5) / _GRID - 0.5) * side for side in (settings.width, settings.height))
-        x, y = (side.ravel().astype(np.float32) for side in np.meshgrid(x, y))
+        x, y = (side.ravel().astype(settings.real) for side in np.meshgrid(x, y))
         (o, d), beside = self.camera.rays(self.camera_k, x, y), self.camera.rays(self.camera_k, x + 1, y)
-        d = np.ascontiguousarray(d, np.float32)
-        hits = self.world.accel.closest((o + self.place[:, None]).astype(np.float32), d)
+        d = np.ascontiguousarray(d, settings.real)
+        hits = self.world.accel.closest((o + self.place[:, None]).astype(settings.real), d)
         met = np.nonzero(hits.prim >= 0)[0]
         o, d, across, along = (a.take(met, axis=1) for a in (o, d, *beside))
         t = hits.t.take(met)

@@ -118,7 +118,7 @@ def render_plan(plan, ends=(), cancelled=None, checkpoint=NO_CHECKPOINT):
     ending = Ending(settings, ends if plan.tile.most_rounds(settings) == 1 else (), checkpoint.seconds)
     work = Work(places, ending, settings.error_measure, cancelled, keeps=checkpoint.seconds > 0)
     reached = work.restore(checkpoint.load(), plan)
-    begin = settings.rendered_samples[0]
+    begin, lost = settings.rendered_samples[0], plan.world.lost.count
     if work.done_with:
         yield Progress(work.done, tuple(_tile(plan, place, values, is_final=True) for place, values in work.done_with.items()))
     workers = min(settings.threads or os.cpu_count() or 1, len(places))
@@ -142,7 +142,7 @@ def render_plan(plan, ends=(), cancelled=None, checkpoint=NO_CHECKPOINT):
             # What ended early has not known that it would.
             tiles = tuple(_tile(plan, place, tile.result(not work.is_cut), is_final=True) for place, tile in work.tiles.items())
             done, tiles = (1.0, tiles) if reached.ended_by else (work.done, ())
-            yield Progress(done, tiles, tuple(work.lost_in_all()), reached=reached)
+            yield Progress(done, tiles, (*work.lost_in_all(), *plan.world.lost.since(lost)), reached=reached)
         finally:
             work.stop()
             pool.shutdown(wait=True, cancel_futures=True)
@@ -199,6 +199,7 @@ def metadata(scene, settings, layer="", requirements=None):
         "glanz.camera": scene.camera.name,
         "glanz.integrator": settings.integrator,
         "glanz.sampler": settings.sampler,
+        "glanz.precision": settings.precision,
         "glanz.samples": str(settings.samples),
         "glanz.sample_range": "{},{}".format(*settings.rendered_samples),
         "glanz.replicates": str(len(settings.replicate_sizes)),

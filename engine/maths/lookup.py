@@ -150,7 +150,8 @@ _DOUBLINGS = [2**power for power in range(MOST_TAPS.bit_length() - 1)]
 
 def _number_of(x, y):
     """A number in [0, 1) for each place x, y (N,), hashed, as neighbours would else be alike."""
-    bits = x.view(np.uint32) * np.uint32(0x9E3779B1) ^ y.view(np.uint32) * np.uint32(0x85EBCA77)
+    x, y = (side.astype(np.float32, copy=False).view(np.uint32) for side in (x, y))
+    bits = x * np.uint32(0x9E3779B1) ^ y * np.uint32(0x85EBCA77)
     bits ^= bits >> np.uint32(15)
     bits *= np.uint32(0xC2B2AE3D)
     bits >>= np.uint32(9)
@@ -162,7 +163,7 @@ def _level(square, u1, last):
     """The level, at most `last`, on which a texel is as wide as the root of `square` (N,), up or down as u1 in [0, 1) has it."""
     dither = 1 + u1
     # Half of the exponent of a square.
-    level = ((square * dither * dither).view(np.int32) - np.int32(127 << 23)) >> 24
+    level = ((square * dither * dither).astype(np.float32, copy=False).view(np.int32) - np.int32(127 << 23)) >> 24
     return np.minimum(level, last)
 
 

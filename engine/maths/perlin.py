@@ -23,7 +23,8 @@ def offset(seed, dimensions=3):
 
 
 def noise(p):
-    """Noise in [-1, 1] at p (D, N) float32, (N,): 0 at whole numbers, smooth between them, repeated every 100,000."""
+    """Noise in [-1, 1] at p (D, N), (N,) float32: 0 at whole numbers, smooth between them, repeated every 100,000."""
+    p = p.astype(np.float32, copy=False)
     is_far = np.abs(p) >= _PERIOD
     if is_far.any():
         # Far out there are but whole numbers, where all noise is 0: Blender looks between them.

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import accumulate
 
+import numpy as np
+
 from ..errors import SceneError
 
 REPLICATES = 8
@@ -14,6 +16,8 @@ FIRST = 16
 """Samples of the first replicates where a picture may end after any of them."""
 ERROR_MEASURES = ("relative", "lightness")
 """What the error of a picture may be told in, see `measured`."""
+PRECISIONS = {"fast": np.float32, "exact": np.float64}
+"""What rays and light are computed in. Embree finds triangles in float32 in any case, see `world.measured`."""
 OF_ERROR = ("Standard Error", "Confidence")
 """Passes that ask for the error."""
 
@@ -52,6 +56,7 @@ class Settings:
     adaptive_levels     how often it may be, in four each time; `samples` is then that of each part
     filter_textures  whether textures are averaged over what a ray stands for; else they are looked up at points, and alias
     film_transparent whether the camera does not see the world: alpha is the share of a pixel that something covers
+    precision      "fast": float32; or "exact": float64, with hits measured again on the triangles found. See `PRECISIONS`
     passes         names of passes, see the registry
     tile_size      side of the square tiles [px]; 0: the whole frame; does not change the picture
     motion_steps   shapes that a mesh which deforms while the shutter is open takes; each costs its memory once more
@@ -84,6 +89,7 @@ class Settings:
     adaptive_levels: int = 3
     filter_textures: bool = True
     film_transparent: bool = False
+    precision: str = "fast"
     passes: tuple = ("Combined",)
     tile_size: int = 64
     threads: int = 0
@@ -123,6 +129,8 @@ class Settings:
                 raise SceneError(f"setting {name} is {value!r} W m^-2 sr^-1, allowed: from 0, which is none")
         if self.error_measure not in ERROR_MEASURES:
             raise SceneError(f"setting error_measure is {self.error_measure!r}, allowed: {', '.join(ERROR_MEASURES)}")
+        if self.precision not in PRECISIONS:
+            raise SceneError(f"setting precision is {self.precision!r}, allowed: {', '.join(PRECISIONS)}")
         if not (isinstance(self.time_limit, (int, float)) and 0.0 <= self.time_limit < math.inf):
             raise SceneError(f"setting time_limit is {self.time_limit!r} s, allowed: from 0, which is none")
         if not (isinstance(self.adaptive_threshold, (int, float)) and 0.0 <= self.adaptive_threshold <= 1.0):
@@ -154,6 +162,11 @@ class Settings:
             if 0 <= first < end <= self.samples:
                 return
         raise SceneError(f"setting sample_range is {self.sample_range!r}, allowed: (first, end) of {self.samples} samples and not empty")
+
+    @property
+    def real(self):
+        """The dtype of rays and light."""
+        return PRECISIONS[self.precision]
 
     @property
     def rendered_samples(self):

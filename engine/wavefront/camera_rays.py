@@ -13,17 +13,17 @@ def camera_rays(plan, pixels, first, count):
 
     A pixel is known by its place in the full frame, so that a border renders to the pixels of the whole picture.
     """
-    settings = plan.settings
+    settings, real = plan.settings, plan.settings.real
     px, py = pixels.px, pixels.py
     replicate, sample = plan.replicates.of(np.arange(first, first + count))
     seeds = [seed_of(settings.seed, r) for r in range(replicate[0], replicate[-1] + 1)]
     keys = np.stack([pixels.keys(plan.numbers, settings.width, seed) for seed in seeds])
     n = count * px.size
     rays = Rays(
-        o=np.zeros((3, n), np.float32),
-        d=np.zeros((3, n), np.float32),
-        beta=np.ones((3, n), np.float32),
-        pdf=np.zeros(0, np.float32),
+        o=np.zeros((3, n), real),
+        d=np.zeros((3, n), real),
+        beta=np.ones((3, n), real),
+        pdf=np.zeros(0, real),
         slot=np.arange(n),
         key=keys.take(replicate - replicate[0], axis=0).ravel(),
         sample=np.repeat(sample.astype(np.uint32), px.size),
@@ -34,8 +34,8 @@ def camera_rays(plan, pixels, first, count):
     negative = negative_samples(plan.filter, settings.replicate_sizes)[first : first + count]
     dx, dy = offsets(plan.filter, pixels.spread(plan.numbers.two(rays, Dimension.FILTER)), settings.filter_width, negative)
     # Measured from the middle of the frame, where half pixels are exact.
-    x = np.tile((px + (0.5 - 0.5 * settings.width)).astype(np.float32), count) + dx
-    y = np.tile((py + (0.5 - 0.5 * settings.height)).astype(np.float32), count) + dy
+    x = np.tile((px + (0.5 - 0.5 * settings.width)).astype(real), count) + dx
+    y = np.tile((py + (0.5 - 0.5 * settings.height)).astype(real), count) + dy
     rays.o[...], rays.d[...] = plan.aim(plan, rays, x, y)
     pixels.narrow(rays.carried)
     for stage in plan.on_camera_rays:

@@ -13,8 +13,8 @@ class ClampedFilm(Film):
     `light` after `close` is what the batch would have brought, and what is gone of it: sums of all channels.
     """
 
-    def __init__(self, pixels, passes, replicates, limits):
-        super().__init__(pixels, passes, replicates)
+    def __init__(self, pixels, passes, replicates, real, limits):
+        super().__init__(pixels, passes, replicates, real)
         self._limits = limits
         self._removed = 0.0
 

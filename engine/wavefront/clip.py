@@ -1,7 +1,5 @@
 """The clip range of the camera: the other rays know none."""
 
-import numpy as np
-
 
 def clip_row(camera, scale):
     """The clip range of `camera` in render space of `scale` [m^-1], as {column: number}; both along the axis."""
@@ -20,7 +18,7 @@ def to_the_end_of_range(plan, rays):
 
 
 def range_along(plan, d):
-    """How far camera rays along d (3, N), of a camera at rest, reach from where the range starts: (N,) float32."""
+    """How far camera rays along d (3, N), of a camera at rest, reach from where the range starts: (N,)."""
     k = plan.camera_k
     limit = k.clip_length * plan.camera.ray_per_depth(k, d)
-    return limit.astype(np.float32, copy=False)
+    return limit.astype(d.dtype, copy=False)

@@ -15,16 +15,17 @@ class Film:
 
     A batch of paths opens it with `open`, adds to it by slots, and closes it with `close`. Between, there are
 
-    radiance  (3, slots) float32, of each path
-    clear     (1, slots) float32: the share of each path for which nothing is there
-    recorded  {pass: (C, slots) float32} of those that record something along the way, see `interfaces.Pass`; of "ranks" a list of them
+    radiance  (3, slots), of each path
+    clear     (1, slots): the share of each path for which nothing is there
+    recorded  {pass: (C, slots)} of those that record something along the way, see `interfaces.Pass`; of "ranks" a list of them
     """
 
     light = ()
     """What a batch would have brought, and what was taken away of it, where anything is, see `clamping`."""
 
-    def __init__(self, pixels, passes, replicates=(1,)):
-        """For `pixels` (P,) whose samples are in `replicates` of such sizes."""
+    def __init__(self, pixels, passes, replicates=(1,), real=np.float32):
+        """For `pixels` (P,) whose samples are in `replicates` of such sizes, and of the dtype `real`."""
+        self._real = real
         self.passes = passes
         self._parts = tuple(p for p in passes if p.records in ("light", "first hit and light"))
         self._added = tuple(p for p in passes if p in self._parts or getattr(p, "covers", False))
@@ -46,11 +47,11 @@ class Film:
         self._window = window
         self._count = samples
         slots = samples * self.samples[window].size
-        self.radiance = np.zeros((3, slots), np.float32)
-        self.clear = np.zeros((1, slots), np.float32)
+        self.radiance = np.zeros((3, slots), self._real)
+        self.clear = np.zeros((1, slots), self._real)
         self._slots = slots
         self.recorded = {
-            p.key: [] if p.reduction == "ranks" else np.full((_rows(p), slots), p.background, np.float32) for p in self.passes if p.records
+            p.key: [] if p.reduction == "ranks" else np.full((_rows(p), slots), p.background, self._real) for p in self.passes if p.records
         }
 
     def add(self, plan, rays, lanes, L, light, bounces):

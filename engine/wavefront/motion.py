@@ -30,14 +30,14 @@ def follow_camera(plan, rays):
 
 def seen_from_camera(plan, rays, p):
     """Points p (3, N) of render space as the camera sees them at the time of `rays`: moved to its place at the middle of the shutter."""
-    return plan.camera_poses.at(0, rays.time).local_points(p).astype(np.float32)
+    return plan.camera_poses.at(0, rays.time).local_points(p).astype(p.dtype)
 
 
 def to_the_end_of_moving_range(plan, rays):
     """As `clip.to_the_end_of_range`, for a camera that moves."""
     if rays.depth:
         return None
-    return range_along(plan, plan.camera_poses.at(0, rays.time).local_vectors(rays.d).astype(np.float32))
+    return range_along(plan, plan.camera_poses.at(0, rays.time).local_vectors(rays.d).astype(rays.d.dtype))
 
 
 def closest_at_time(plan, carried, o, d, limit=None):
@@ -68,7 +68,7 @@ def interact_at_time(plan, rays, hits):
     local_d[:, lanes] = pose.local_vectors(d)
     surface = interact(world.triangles, plan.shading_normals, local_d, hits)
     local_p = surface.p.take(lanes, axis=1)
-    p = pose.points(local_p).astype(np.float32)
+    p = pose.points(local_p).astype(local_p.dtype)
     n, growth = pose.normals(surface.n.take(lanes, axis=1))
     ns, _ = pose.normals(surface.ns.take(lanes, axis=1))
     height = np.abs(local_p).max(axis=0) + world.triangles.extent.take(prim)

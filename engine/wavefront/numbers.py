@@ -32,11 +32,12 @@ _PER_BOUNCE = 8
 class Numbers:
     """The random numbers of a render: a sampler and how many samples of a pixel it is to spread over each dimension together.
 
-    Where paths have split, it spreads all their branches.
+    Where paths have split, it spreads all their branches. All are multiples of 2^-24, handed out as `real`, a dtype.
     """
 
     sampler: type
     samples: int
+    real: type = np.float32
 
     def keys(self, px, py, width, seed):
         """What random numbers know a pixel px, py (P,) of the full frame by, uint32; a sampler may have keys of its own."""
@@ -44,15 +45,19 @@ class Numbers:
 
     def one(self, rays, dimension):
         """u1 (N,) for each ray at its depth."""
-        return self.sampler.one(rays.key, rays.sample, _place(rays, dimension), self.samples * rays.split)
+        return self._given(self.sampler.one, rays, dimension)
 
     def independent(self, rays, dimension):
         """u1 (N,) without strata, for decisions that they cannot improve; the same for every sampler."""
-        return Random.one(rays.key, rays.sample, _place(rays, dimension), self.samples * rays.split)
+        return self._given(Random.one, rays, dimension)
 
     def two(self, rays, dimension):
         """u2 (2, N) for each ray at its depth."""
-        return self.sampler.two(rays.key, rays.sample, _place(rays, dimension), self.samples * rays.split)
+        return self._given(self.sampler.two, rays, dimension)
+
+    def _given(self, draw, rays, dimension):
+        numbers = draw(rays.key, rays.sample, _place(rays, dimension), self.samples * rays.split)
+        return numbers.astype(self.real, copy=False)
 
 
 def _place(rays, dimension):

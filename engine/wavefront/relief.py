@@ -28,7 +28,7 @@ def bend_normals(plan, rays, surface):
             # Not where it is not a number either; and what is the same keeps every bit.
             used = np.nonzero((bent != own.ns).any(axis=0) & (dot(bent, own.n) > 0))[0]
             normals = np.array(own.ns)
-            normals[:, used] = unit(bent.take(used, axis=1))
+            normals[:, used] = unit(bent.take(used, axis=1).astype(ns.dtype, copy=False))
             own = dataclasses.replace(own, ns=normals)
         ns[:, lanes] = own.ns
     return dataclasses.replace(surface, ns=ns, looked=looked)

@@ -20,7 +20,7 @@ def closest_in_sight(plan, carried, o, d, limit=None):
     present = np.nonzero(np.bincount(own, minlength=1))[0]
     if present.size == 1:
         return sights.sights[present[0]].closest(o, d, limit, time)
-    hits = Hits(np.full(own.size, -1, np.int32), *np.zeros((3, own.size), np.float32))
+    hits = Hits(np.full(own.size, -1, np.int32), *np.zeros((3, own.size), o.dtype))
     for number in present:
         lanes = np.nonzero(own == number)[0]
         rest, when = (None if column is None else column.take(lanes) for column in (limit, time))

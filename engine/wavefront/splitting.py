@@ -25,7 +25,7 @@ def split_light(plan, rays, surface, reflection, wi):
 
 def not_split(plan, rays):
     """The first column `split` of what camera rays carry."""
-    return np.zeros((2, 3, rays.slot.size), np.float32)
+    return np.zeros((2, 3, rays.slot.size), rays.d.dtype)
 
 
 def split_by_lobes(plan, rays, surface, reflection, scattered):
@@ -72,7 +72,7 @@ def shares(surface, reflection, wi):
     values = [np.broadcast_to(kind.value(surface.ns, surface.wo, wi), wi.shape) for kind in reflection.by_kind()]
     whole = sum(values)
     # Where nothing is reflected it does not matter; but ambient light, which is not, counts as diffuse.
-    found = np.zeros((2, *wi.shape), np.float32)
+    found = np.zeros((2, *wi.shape), wi.dtype)
     found[DIFFUSE] = 1
     for share, value in zip(found, values):
         np.divide(value, whole, out=share, where=whole != 0)

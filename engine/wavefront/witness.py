@@ -15,7 +15,7 @@ class _Witness(Film):
     """A film of one sample that notices the first light which is not finite."""
 
     def __init__(self, plan):
-        super().__init__(1, plan.passes, plan.settings.replicate_sizes)
+        super().__init__(1, plan.passes, plan.settings.replicate_sizes, plan.settings.real)
         # The rays whose surfaces are known, the triangles that they hit, and that of the last path which was as it should be.
         self._rays, self._prims, self._last = None, (), None
         self.prim = None

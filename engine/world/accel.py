@@ -62,6 +62,8 @@ class Accel:
         padded[:-1] = vertices.T
         # As long as the tree is there, so are the arrays: Embree may read them.
         self._arrays = padded, np.ascontiguousarray(triangles.T, np.int32)
+        self.embree = self
+        """What is left of it without precision of its own, see `measured`."""
         self.is_empty = triangles.shape[1] == 0
         self._scene, self._mesh = (None, None) if self.is_empty else _build(*self._arrays)
 

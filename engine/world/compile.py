@@ -17,6 +17,7 @@ from .frame import Frame
 from .holdouts import Holdouts
 from .lights import Lights
 from .materials import Materials
+from .measured import Lost, MeasuredAccel
 from .media import Bodies, Media
 from .movers import Movers, Moving
 from .moving_lamps import MovingLamps
@@ -43,9 +44,9 @@ class Triangles:
     First those that stand still, of which those that emit come last; then those that move, object by object, each in its
     object's local frame (see `movers`), and once for each shape that it takes.
 
-    shape           (12, F) float32: first corner, the edges to the second and third, and the geometric normal (unit, by
-                    winding), three rows each
-    extent          (F,) float32: the largest coordinate of the edges by magnitude
+    shape           (12, F), in the precision of rays, as extent is: first corner, the edges to the second and third, and the geometric
+                    normal (unit, by winding), three rows each
+    extent          (F,): the largest coordinate of the edges by magnitude
     smooth          (F,) intp: a column of `corner_normals`, -1 for flat triangles; (0,): all are flat
     corner_normals  (9, S) float32: the shading normal of the first corner, and the differences to those of the second
                     and third
@@ -74,7 +75,7 @@ class Triangles:
 class CompiledWorld:
     """What rays travel through.
 
-    accel       the triangles that stand still
+    accel       the triangles that stand still, an `Accel` or a `MeasuredAccel`
     movers      the others; None where all stand still
     by_cosine   what materials are by the cosine from which they are seen; None where none depends on that alone
     emitters    the patches that emit: the last ones of `lights`, made of the last ones of the triangles that stand still
@@ -87,10 +88,11 @@ class CompiledWorld:
     passing     what passes surfaces straight on; None where nobody asks
     sights      what rays of each kind see; None where all see everything
     holdouts    what the camera sees as clear; None where there is nothing
+    lost        counts rays that met nothing though Embree says so, see `measured`
     """
 
     frame: Frame
-    accel: Accel
+    accel: Accel | MeasuredAccel
     movers: object
     triangles: Triangles
     materials: Materials
@@ -106,6 +108,7 @@ class CompiledWorld:
     light_groups: dict
     glow: object
     camera: CameraSpace
+    lost: Lost
     warnings: tuple
 
     def seen_from(self, camera):
@@ -131,6 +134,7 @@ def compile_world(
     has_holdouts=False,
     before=None,
     asked=(),
+    real=np.float32,
 ):
     """`scene` (validated) as a `CompiledWorld`.
 
@@ -140,7 +144,7 @@ def compile_world(
     from some rays, `has_holdouts` that something is held out, and `passing_of` (None: nothing passes) makes the `Passing` of the
     materials. Deforming meshes take `motion_steps` shapes, and without any all is as at the middle of the shutter. `before`, a world of
     the scene as it was, lends the origin of its render space, which is else the camera, and its tree if no triangle is another. `asked`
-    are what all meshes and objects have to bring, keys as in `attributes`. Raises SceneError where
+    are what all meshes and objects have to bring, keys as in `attributes`; `real` is the dtype of rays. Raises SceneError where
     the geometry does not fit into memory.
     """
     materials, row = _number_materials(scene)
@@ -161,7 +165,7 @@ def compile_world(
         away = np.zeros(len(scene.objects))
         away[[i for i, _ in changing]] = [frame.scale * m.away(frame.origin) for m in moving]
         vertices = moved_apart(vertices, indices, owner, bodies.layer.take(owner), away)
-    shape, extent, usable, has_area = _measure(vertices, indices)
+    shape, extent, usable, has_area = _measure(vertices, indices, real)
     warnings = [torn(scene.objects[i]) for i in np.unique(owner[~usable])]
     # Emitters come last, but for what moves.
     rank = table.emission.any(axis=0)[material].astype(np.int8)
@@ -179,10 +183,13 @@ def compile_world(
     first_emitter, first_moving = np.count_nonzero(rank < 1), np.count_nonzero(rank < _MOVES)
     try:
         at_rest = vertices, indices[:, :first_moving]
-        accel = before.accel if before and before.accel.is_of(*at_rest) else Accel(*at_rest)
-        movers = _movers(moving, parts, frame, vertices, indices, keep) if moving else None
+        embree = before.accel.embree if before and before.accel.embree.is_of(*at_rest) else Accel(*at_rest)
+        lost_rays = Lost()
+        measured = _measuring(shape, extent, lost_rays)
+        accel = measured(embree, slice(first_moving))
+        movers = _movers(moving, parts, frame, vertices, indices, keep, measured) if moving else None
         whole = Sight(accel, None, movers)
-        sights = Sights.of(scene, owner[:first_moving], at_rest, whole, [i for i, _ in changing]) if has_sights else None
+        sights = Sights.of(scene, owner[:first_moving], at_rest, whole, [i for i, _ in changing], measured) if has_sights else None
     except AccelError as error:
         raise SceneError(f"scene '{scene.name}': {error}") from error
     column, corner_normals = _smooth(parts, keep, shape[9:]) if smooth else (np.zeros(0, np.intp), np.zeros((9, 0), np.float32))
@@ -240,6 +247,7 @@ def compile_world(
         light_groups=_light_groups(scene, lights, emitters),
         glow=glow,
         camera=camera,
+        lost=lost_rays,
         warnings=(*warnings, *lost, *dark),
     )
 
@@ -285,7 +293,14 @@ def _starts(parts):
     return np.cumsum([0] + [part.vertices.shape[1] for part in parts])
 
 
-def _movers(moving, parts, frame, vertices, indices, keep):
+def _measuring(shape, extent, lost):
+    """What makes a tree (embree, part) for rays of the precision of `shape`: `embree` is the `Accel` of a `part` of the triangles."""
+    if shape.dtype == np.float32:
+        return lambda embree, part: embree
+    return lambda embree, part: MeasuredAccel(embree, shape[:, part], extent[part], lost)
+
+
+def _movers(moving, parts, frame, vertices, indices, keep, measured):
     """The `Movers`: their parts are the last of `parts`, their triangles the last of `indices` (3, F), which were `keep` (F,)."""
     count = sum(len(m.parts) for m in moving)
     faces = np.searchsorted(np.sort(keep), np.cumsum([0] + [part.owner.size for part in parts]))
@@ -297,13 +312,14 @@ def _movers(moving, parts, frame, vertices, indices, keep):
         [np.ascontiguousarray(vertices[:, corners[i] : corners[i + 1]]) for i in own],
         [indices[:, faces[i] : faces[i + 1]] - corners[i] for i in own],
         int(faces[own[0]]),
+        measured,
     )
 
 
-def _measure(vertices, indices):
-    """`Triangles.shape` and `.extent`, and which triangles are usable and which of these have an area, (F,) bool each."""
+def _measure(vertices, indices, real):
+    """`Triangles.shape` and `.extent` of the dtype `real`, which triangles are usable, and which of these have an area, (F,) bool each."""
     count = indices.shape[1]
-    shape, extent = np.empty((12, count), np.float32), np.empty(count, np.float32)
+    shape, extent = np.empty((12, count), real), np.empty(count, real)
     usable, has_area = np.empty(count, bool), np.empty(count, bool)
     for start in range(0, count, AT_ONCE):
         here = slice(start, start + AT_ONCE)
@@ -313,9 +329,10 @@ def _measure(vertices, indices):
         normal = cross(exact[:, 1] - exact[:, 0], exact[:, 2] - exact[:, 0])
         double_area = length(normal)
         has_area[here] = usable[here] & (double_area > 0)
-        first, second, third = corners.transpose(1, 0, 2)
+        # The same numbers in any precision.
+        first, second, third = corners.astype(real, copy=False).transpose(1, 0, 2)
         normal /= np.maximum(double_area, np.finfo(np.float64).tiny)
-        shape[:, here] = np.concatenate((first, second - first, third - first, normal), dtype=np.float32, casting="same_kind")
+        shape[:, here] = np.concatenate((first, second - first, third - first, normal), dtype=real, casting="same_kind")
         extent[here] = np.abs(shape[3:9, here]).max(axis=0)
     return shape, extent, usable, has_area
 

@@ -58,7 +58,8 @@ def smooth_normals(triangles, prim, u, v, n, sign):
     """
     row = gather(triangles.smooth, prim)
     lanes = np.nonzero(row >= 0)[0]
-    corner, along_e1, along_e2 = gather(triangles.corner_normals, gather(row, lanes)).reshape(3, 3, -1)
+    corners = gather(triangles.corner_normals, gather(row, lanes)).astype(n.dtype, copy=False)
+    corner, along_e1, along_e2 = corners.reshape(3, 3, -1)
     along_e1 *= gather(u, lanes)
     along_e2 *= gather(v, lanes)
     corner += along_e1

@@ -76,7 +76,7 @@ class Movers:
     first  the first of their triangles, which are the last of the world; `owner` (M,) intp which object each is of
     poses  where they are, see `Poses`
     reach  (O,) how far their triangles are from the origins of their paths at most
-    trees  for each object, for each of its steps: (Accel, the number of its first triangle)
+    trees  for each object, for each of its steps: (an `Accel` or a `MeasuredAccel`, the number of its first triangle)
     bounds a tree of `Node`s around all of them
     spheres around what each sweeps while the shutter is open: centres (3, O), radii (O,)
     """
@@ -90,8 +90,11 @@ class Movers:
     spheres: tuple
 
     @classmethod
-    def of(cls, moving, frame, vertices, triangles, first):
-        """From `Moving` objects, local vertices (3, V) float32 and triangles of each part, and the number of the first triangle."""
+    def of(cls, moving, frame, vertices, triangles, first, measured):
+        """From `Moving` objects, local vertices (3, V) float32 and triangles of each part, and the number of the first triangle.
+
+        `measured` makes trees of `Accel`s and which of all triangles they are of.
+        """
         trees, owner, reach, paths = [], [], [], []
         parts = iter(zip(vertices, triangles, strict=True))
         start = first
@@ -99,7 +102,7 @@ class Movers:
             steps, farthest = [], 0.0
             for _ in m.parts:
                 corners, indices = next(parts)
-                steps.append((Accel(corners, indices), start))
+                steps.append((measured(Accel(corners, indices), slice(start, start + indices.shape[1])), start))
                 start += indices.shape[1]
                 # Of what is met only: other corners may be anywhere.
                 farthest = max(farthest, length(corners.take(indices.ravel(), axis=1).astype(np.float64)).max(initial=0))
@@ -144,8 +147,8 @@ class Movers:
         for number, lanes in self._passing(self.bounds, None, o, d, time, limit):
             steps, when = self.trees[number], time.take(lanes)
             pose = self.poses.at(number, when)
-            near_o = pose.local_points(o.take(lanes, axis=1)).astype(np.float32)
-            near_d = pose.local_vectors(d.take(lanes, axis=1)).astype(np.float32)
+            near_o = pose.local_points(o.take(lanes, axis=1)).astype(o.dtype)
+            near_d = pose.local_vectors(d.take(lanes, axis=1)).astype(d.dtype)
             if len(steps) == 1:
                 yield *steps[0], lanes, near_o, near_d
                 continue

@@ -55,13 +55,14 @@ class Sights:
     lit: np.ndarray | None = None
 
     @classmethod
-    def of(cls, scene, owner, mesh, whole, moving):
+    def of(cls, scene, owner, mesh, whole, moving, measured):
         """From a `scene`, but for its lights.
 
         owner   (F,) the object of each triangle that stands still
         mesh    their vertices (3, V) and corners (3, F)
         whole   the `Sight` of those who see everything
         moving  the numbers of the objects that move, in the order of `whole.movers`
+        measured  makes trees of `Accel`s and which of all triangles they are of
         """
         vertices, corners = mesh
         moving = np.array(moving, np.intp)
@@ -73,7 +74,8 @@ class Sights:
                 if not seen.all():
                     prims = np.nonzero(seen.take(owner))[0]
                     movers = whole.movers and whole.movers.only(np.nonzero(seen.take(moving))[0])
-                    sight = Sight(Accel(vertices, corners.take(prims, axis=1)), prims.astype(np.int32), movers)
+                    accel = measured(Accel(vertices, corners.take(prims, axis=1)), prims)
+                    sight = Sight(accel, prims.astype(np.int32), movers)
                 known[seen.tobytes()] = len(known), sight
             of_kind.append(known[seen.tobytes()][0])
         return cls(tuple(sight for _, sight in known.values()), np.array(of_kind))

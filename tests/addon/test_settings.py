@@ -22,9 +22,10 @@ def test_the_files_settings_hold():
     glanz.sampler, glanz.pixel_filter, glanz.filter_width = "random", "box", 2
     glanz.branches, glanz.min_contribution, glanz.light_falloff = 7, 0.25, False
     glanz.adaptive_threshold, glanz.adaptive_levels, glanz.filter_textures = 0.25, 5, False
-    scene.render.film_transparent = True
+    glanz.precision, scene.render.film_transparent = "exact", True
     s = _settings()
     assert s.film_transparent
+    assert s.precision == "exact"
     assert (s.adaptive_threshold, s.adaptive_levels, s.filter_textures) == (0.25, 5, False)
     assert (s.width, s.height, s.border, s.threads) == (100, 50, (), 3)
     assert (s.samples, s.max_depth, s.max_transparent, s.seed, s.tile_size) == (9, 2, 7, -5, 32)

@@ -64,11 +64,11 @@ def test_help_is_given_with_status_0(words, capsys):
 
 def test_every_setting_of_the_command_line_has_its_own_name():
     words = "--integrator i --sampler s --samples 1 --max-depth 2 --seed 3 --threads 4 --pixel-filter f"
-    words += " --max-transparent 9 --branches 8 --min-contribution 0.5 --adaptive-threshold 0.1 --adaptive-levels 5"
+    words += " --max-transparent 9 --branches 8 --min-contribution 0.5 --adaptive-threshold 0.1 --adaptive-levels 5 --precision p"
     arguments = parser("1").parse_args(["render", "a.blend", *words.split()])
     assert (arguments.integrator, arguments.sampler, arguments.samples, arguments.max_depth) == ("i", "s", 1, 2)
     assert (arguments.max_transparent, arguments.branches, arguments.min_contribution) == (9, 8, 0.5)
-    assert (arguments.seed, arguments.threads, arguments.pixel_filter) == (3, 4, "f")
+    assert (arguments.seed, arguments.threads, arguments.pixel_filter, arguments.precision) == (3, 4, "f", "p")
     assert (arguments.adaptive_threshold, arguments.adaptive_levels) == (0.1, 5)
 
 

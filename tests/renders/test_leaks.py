@@ -10,8 +10,11 @@ from glanz.engine.maths import patches
 from glanz.engine.wavefront import direct, visibility
 from glanz.engine.world import interaction
 from glanz.engine.world.accel import Accel
+from glanz.engine.world.measured import MeasuredAccel
 from glanz.tests import helpers as h
 
+TREES = {"fast": Accel, "exact": MeasuredAccel}
+"""Whom rays of each precision ask."""
 CUBE = h.box((-1, -1, -1), (1, 1, 1), name="cube")
 
 
@@ -22,41 +25,44 @@ def star():
     return h.Mesh(name="star", vertices=h.rotation(5) @ (mesh.vertices * bump), triangles=mesh.triangles)
 
 
-def escapes(mesh, monkeypatch, scale=1.0, offset=(0.0, 0.0, 0.0), paths=10_000, depth=100):
+def escapes(mesh, monkeypatch, precision="fast", scale=1.0, offset=(0.0, 0.0, 0.0), paths=10_000, depth=100):
     """(rays that met nothing, rays traced) of random walks in a closed white mesh; no roulette ends any."""
     matrix = h.affine(scale * np.eye(3), offset)
     eye = np.array(offset) + scale * np.array((0.11, -0.07, 0.05))
     camera = PerspectiveCamera.look_at(eye, eye + scale * np.array((0.3, 0.5, 0.2)), fov=math.radians(100))
-    calls = h.spy(monkeypatch, Accel, "closest")
+    calls = h.spy(monkeypatch, TREES[precision], "closest")
     side = math.isqrt(paths)
     # The walk goes on because the world could be seen.
     h.pixels(
         h.scene([h.thing(mesh, h.lambert(1.0), matrix)], camera=camera, world=1.0),
-        h.settings(width=side, height=side, samples=1, max_depth=depth),
+        h.settings(width=side, height=side, samples=1, max_depth=depth, precision=precision),
     )
     traced = [call.result.prim for call in calls if call.result.prim.size > 1]
     monkeypatch.undo()
     return sum(np.count_nonzero(prim < 0) for prim in traced), sum(prim.size for prim in traced)
 
 
+@pytest.mark.parametrize("precision", TREES)
 @pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
 @pytest.mark.parametrize("name", ["cube", "star"])
-def test_random_walks_stay_inside(monkeypatch, name, scale):
+def test_random_walks_stay_inside(monkeypatch, name, scale, precision):
     """A5: at most 5 of 1e6 segments escape, at every scale (3e-7 per segment are expected at corners)."""
-    lost, segments = escapes({"cube": CUBE, "star": star()}[name], monkeypatch, scale)
+    lost, segments = escapes({"cube": CUBE, "star": star()}[name], monkeypatch, precision, scale)
     assert segments > 0.95e6
     assert lost <= 5
 
 
-def test_random_walks_stay_inside_far_from_the_origin(monkeypatch):
+@pytest.mark.parametrize("precision", TREES)
+def test_random_walks_stay_inside_far_from_the_origin(monkeypatch, precision):
     """A5 with an offset of 1e7 sizes, which float64 holds and rebasing takes away."""
-    lost, segments = escapes(star(), monkeypatch, offset=(1e7, -2e7, 1e7), depth=50)
+    lost, segments = escapes(star(), monkeypatch, precision, offset=(1e7, -2e7, 1e7), depth=50)
     assert segments > 0.45e6
     assert lost <= 4
 
 
-def test_random_walks_stay_inside_long_prisms(monkeypatch):
-    lost, segments = escapes(h.box((-1, -1, -100), (1, 1, 100)), monkeypatch, depth=50)
+@pytest.mark.parametrize("precision", TREES)
+def test_random_walks_stay_inside_long_prisms(monkeypatch, precision):
+    lost, segments = escapes(h.box((-1, -1, -100), (1, 1, 100)), monkeypatch, precision, depth=50)
     assert segments > 0.45e6
     assert lost <= 100  # corners are relatively closer: about 1e-4 at a distance of 100 sizes
 
@@ -89,7 +95,7 @@ def test_walks_catch_an_offset_in_metres(monkeypatch):
 
 def shadow_rays(monkeypatch, scene, settings):
     """(occluded, asked) over all shadow rays that matter."""
-    calls = h.spy(monkeypatch, Accel, "occluded")
+    calls = h.spy(monkeypatch, TREES[settings.precision], "occluded")
     image = h.pixels(scene, settings)
     # Rays without a length do not matter to anyone.
     asked = sum(np.count_nonzero(call.args[3] > 0) for call in calls)
@@ -117,10 +123,12 @@ CASES = {
 }
 
 
+@pytest.mark.parametrize("precision", TREES)
 @pytest.mark.parametrize("name", CASES)
-def test_the_lamp_does_not_stand_in_its_own_light(monkeypatch, name):
+def test_the_lamp_does_not_stand_in_its_own_light(monkeypatch, name, precision):
     """A9: 0 of about 1e5 shadow rays to points on an emissive square are occluded, at each place and scale, down to 1e-5 of grazing."""
-    occluded, asked, _ = shadow_rays(monkeypatch, lamp_over_floor(**CASES[name]), h.settings(width=128, height=128, samples=9, max_depth=0))
+    settings = h.settings(width=128, height=128, samples=9, max_depth=0, precision=precision)
+    occluded, asked, _ = shadow_rays(monkeypatch, lamp_over_floor(**CASES[name]), settings)
     assert asked > 50_000
     assert occluded == 0
 

@@ -94,8 +94,9 @@ def test_settings_cannot_be_changed():
         ("light_falloff", 1),
         ("filter_textures", None),
         ("film_transparent", 1),
+        ("precision", "double"),
     ],
 )
-def test_senseless_settings_of_ray_trees_are_refused_by_name(name, value):
+def test_senseless_choices_are_refused_by_name(name, value):
     with pytest.raises(SceneError, match=f"setting {name} is"):
         Settings(**{name: value})
