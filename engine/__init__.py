@@ -21,7 +21,7 @@ from .cameras.orthographic import OrthographicCamera
 from .cameras.panorama import PanoramaCamera
 from .cameras.perspective import PerspectiveCamera
 from .constants import VERSION
-from .errors import FileError, GlanzError, SceneError, SceneWarning
+from .errors import FileError, GlanzError, MemoryShortage, SceneError, SceneWarning
 from .interfaces import albedo_of
 from .io.checkpoint import Checkpoint
 from .io.exr import write_exr
@@ -174,6 +174,7 @@ __all__ = [
     "Material",
     "Math",
     "Medium",
+    "MemoryShortage",
     "Mesh",
     "MeshAttribute",
     "Mirror",

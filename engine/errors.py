@@ -9,6 +9,10 @@ class SceneError(GlanzError):
     """A scene or setting that cannot be rendered; the text names the object and the value."""
 
 
+class MemoryShortage(SceneError):
+    """What would take more memory than there is; the text names it, both numbers and the cure."""
+
+
 class FileError(GlanzError):
     """A file that cannot be read or written; the text names the path and the cause."""
 

@@ -15,6 +15,7 @@ from .measured import Found
 from .plan import Plan
 from .registry import PASSES
 from .requirements import Requirements
+from .room import LANES, TOGETHER, require_room
 from .saved import NO_CHECKPOINT
 from .scene.validate import validate
 from .wavefront.camera_rays import camera_rays
@@ -24,10 +25,6 @@ from .wavefront.signed_filter import sample_weights
 from .wavefront.witness import culprit
 from .work import Work
 
-LANES = 2**16
-"""Paths in a batch: enough to hide Python, few enough for the cache."""
-TOGETHER = 4
-"""Batches that are on the film at a time at most: what is left of them after a few bounces is followed together."""
 POLL_SECONDS = 0.1
 SHOW_SECONDS = 0.5
 """How often a tile that takes long is shown unfinished; what a user who cancels may lose of it."""
@@ -106,7 +103,7 @@ def _more(plan, warnings):
 
 
 def render_plan(plan, ends=(), cancelled=None, checkpoint=NO_CHECKPOINT):
-    """`render` for a `Plan` that is made already. Raises SceneError if the checkpoint is of another plan.
+    """`render` for a `Plan` that is made already. Raises MemoryShortage if it would not fit, SceneError if the checkpoint is of another plan.
 
     ends       numbers of samples, rising: the whole frame gets as many before any pixel gets more. Tiles come once for each,
                unfinished but for the last; without, each comes when it has all. Where pixels are divided `ends` count for nothing
@@ -114,6 +111,7 @@ def render_plan(plan, ends=(), cancelled=None, checkpoint=NO_CHECKPOINT):
     checkpoint where it goes on from, and what it saves now and then, see `saved`: the picture is to the bit what it would be without
     """
     settings = plan.settings
+    require_room(plan, bool(ends), checkpoint.seconds > 0)
     places = _tiles(settings, plan.tile.longest_side(settings))
     ending = Ending(settings, ends if plan.tile.most_rounds(settings) == 1 else (), checkpoint.seconds)
     work = Work(places, ending, settings.error_measure, cancelled, keeps=checkpoint.seconds > 0)

@@ -8,6 +8,10 @@ import numpy as np
 from ..arrays import frozen
 from ..errors import SceneError
 from ..maths.mipmaps import Pyramid
+from ..memory import require
+
+_MIP_MAPS = 6
+"""Bytes for each texel: a third of four float32, rounded up."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -17,7 +21,7 @@ class Bitmap:
     pixels   (3 or 4, H, W) uint8, or float32, which is linear already: red, green, blue, and alpha where it is not 1
              everywhere; the first row is the lowest. What is a view of a contiguous (H, W, 4) is not copied
     is_srgb  bytes of colours are encoded by the sRGB curve (IEC 61966-2-1); else they are linear, 255 is 1
-    Raises SceneError where the shape does not fit.
+    Raises SceneError where the shape does not fit, MemoryShortage where the picture would not.
     """
 
     name: str
@@ -26,6 +30,10 @@ class Bitmap:
 
     def __post_init__(self):
         pixels = self.pixels
+        if np.ndim(pixels) == 3:
+            height, width = np.shape(pixels)[1:]
+            what = f"the pixels of image '{self.name}', {width}x{height} of them, and their mip maps"
+            require(height * width * (4 * pixels.itemsize + _MIP_MAPS), what, "scale it down")
         dtype = np.uint8 if getattr(pixels, "dtype", None) == np.uint8 else np.float32
         channels = 4 if np.shape(pixels)[:1] == (4,) else 3
         if channels == 3 or pixels.dtype != dtype or pixels.ndim != 3 or not np.moveaxis(pixels, 0, 2).flags.c_contiguous:

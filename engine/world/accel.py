@@ -16,6 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .. import memory
 from ..arrays import gather
 from ..errors import AccelError
 from . import shared_buffers
@@ -45,7 +46,10 @@ class Hits:
 
 
 class Accel:
-    """Triangles (3, V) float32 and (3, F) int32, ready to be met by rays. Raises AccelError for what cannot be built."""
+    """Triangles (3, V) float32 and (3, F) int32, ready to be met by rays.
+
+    Raises AccelError for what cannot be built, MemoryShortage where it would not fit.
+    """
 
     def __init__(self, vertices, triangles):
         vertices = np.asarray(vertices)
@@ -56,7 +60,7 @@ class Accel:
             raise AccelError(f"triangles must be integers (3, F), not {triangles.dtype} {triangles.shape}")
         if triangles.size and not 0 <= triangles.min() <= triangles.max() < vertices.shape[1]:
             raise AccelError(f"triangles name vertices {triangles.min()} to {triangles.max()} of {vertices.shape[1]}")
-        _refuse_beyond_memory(triangles.shape[1])
+        memory.require(triangles.shape[1] * BYTES_PER_TRIANGLE, f"{triangles.shape[1]} triangles", "simplify the scene", share=0.5)
         # Embree may read one number more than the last vertex has.
         padded = np.zeros((vertices.shape[1] + 1, 3), np.float32)
         padded[:-1] = vertices.T
@@ -157,22 +161,6 @@ def _safe_lanes(o, d, limit=None):
         safe &= limit >= 0
     lanes = np.nonzero(safe)[0]
     return [lanes[start : start + RAYS_PER_CALL] for start in range(0, lanes.size, RAYS_PER_CALL)]
-
-
-def _refuse_beyond_memory(triangles):
-    needed = triangles * BYTES_PER_TRIANGLE
-    free = _free_memory()
-    if free is not None and needed > 0.5 * free:
-        raise AccelError(f"{triangles} triangles need about {needed / 2**30:.1f} GiB, but only {free / 2**30:.1f} GiB are free")
-
-
-def _free_memory():
-    """Bytes that the machine could still give, None where it does not say."""
-    try:
-        with open("/proc/meminfo", encoding="ascii") as lines:
-            return next(int(line.split()[1]) * 1024 for line in lines if line.startswith("MemAvailable:"))
-    except (OSError, StopIteration):
-        return None
 
 
 def check():

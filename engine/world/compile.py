@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..errors import AccelError, SceneError, SceneWarning
+from ..errors import AccelError, MemoryShortage, SceneError, SceneWarning
 from ..maths.vectors import cross, dot, length
 from ..scene.textured import asks_for_around
 from ..scene.validate import torn
@@ -23,6 +23,7 @@ from .movers import Movers, Moving
 from .moving_lamps import MovingLamps
 from .passing import Passing
 from .placement import place
+from .room import require_room
 from .sights import Sight, Sights
 from .sky import environment_of
 from .texturing import EVEN, TexturedGlow
@@ -144,9 +145,10 @@ def compile_world(
     from some rays, `has_holdouts` that something is held out, and `passing_of` (None: nothing passes) makes the `Passing` of the
     materials. Deforming meshes take `motion_steps` shapes, and without any all is as at the middle of the shutter. `before`, a world of
     the scene as it was, lends the origin of its render space, which is else the camera, and its tree if no triangle is another. `asked`
-    are what all meshes and objects have to bring, keys as in `attributes`; `real` is the dtype of rays. Raises SceneError where
-    the geometry does not fit into memory.
+    are what all meshes and objects have to bring, keys as in `attributes`; `real` is the dtype of rays. Raises MemoryShortage, a
+    SceneError, where the geometry does not fit into memory.
     """
+    require_room(scene, motion_steps)
     materials, row = _number_materials(scene)
     bodies = Bodies.of(scene.objects) if has_media else None
     # What is no body may lie in one, too.
@@ -190,7 +192,7 @@ def compile_world(
         movers = _movers(moving, parts, frame, vertices, indices, keep, measured) if moving else None
         whole = Sight(accel, None, movers)
         sights = Sights.of(scene, owner[:first_moving], at_rest, whole, [i for i, _ in changing], measured) if has_sights else None
-    except AccelError as error:
+    except (AccelError, MemoryShortage) as error:
         raise SceneError(f"scene '{scene.name}': {error}") from error
     column, corner_normals = _smooth(parts, keep, shape[9:]) if smooth else (np.zeros(0, np.intp), np.zeros((9, 0), np.float32))
     runs = np.nonzero(np.diff(owner, prepend=-1))[0]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from glanz.engine import Dielectric, EnvironmentMap, Lens, Material, Medium, Mesh, World, render_image
+from glanz.engine import AreaLight, Dielectric, EnvironmentMap, Lens, Material, Medium, Mesh, World, render_image
 from glanz.engine.wavefront import film
 from glanz.tests import helpers as h
 
@@ -22,6 +22,14 @@ def test_a_camera_whose_frame_is_huge_sees_without_a_complaint():
     camera = h.scene().camera
     image = render_image(h.scene(world=0.5, camera=h.replaced(camera, world_from_camera=np.diag((1e120, 1e120, 1e120, 1)))), h.settings())
     assert np.isfinite(image.passes["Combined"]).all()
+
+
+def test_a_light_that_is_larger_than_any_number_is_left_out_by_name():
+    """Each side of it is a number, but not their product."""
+    vast = AreaLight(name="vast", size_x=1e20, world_from_light=np.diag((1e300, 1e300, 1, 1)))
+    image = render_image(h.scene([h.thing(h.quad())], [vast], world=0.5), h.settings())
+    assert np.isfinite(image.passes["Combined"]).all()
+    assert {line.datablock for line in image.warnings} == {("light", "vast")}
 
 
 def test_a_shape_that_is_not_finite_at_both_times_leaves_out_its_triangles_alone():

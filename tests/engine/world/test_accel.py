@@ -7,8 +7,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from glanz.engine import memory
 from glanz.engine.constants import EPS32
-from glanz.engine.errors import AccelError
+from glanz.engine.errors import AccelError, MemoryShortage
 from glanz.engine.world import accel as module
 from glanz.engine.world.accel import RAYS_PER_CALL, Accel
 from glanz.tests import helpers as h
@@ -232,13 +233,16 @@ def test_limits_are_not_written_to():
 
 
 def test_memory_that_is_not_there_is_refused_before_it_is_taken(monkeypatch):
-    monkeypatch.setattr(module, "_free_memory", lambda: 1_000)
-    with pytest.raises(AccelError, match=r"20 triangles need about 0\.0 GiB, but only 0\.0 GiB are free"):
+    needed = 20 * module.BYTES_PER_TRIANGLE
+    monkeypatch.setattr(memory, "free", lambda: 2 * needed - 1)
+    with pytest.raises(MemoryShortage, match=r"20 triangles need about 0\.0 MiB of memory, but only 0\.0 MiB are free: simplify the scene"):
         Accel(*random_triangles(20))
+    monkeypatch.setattr(memory, "free", lambda: 2 * needed)
+    Accel(*random_triangles(20))
 
 
 def test_a_machine_that_does_not_tell_its_memory_is_trusted(monkeypatch):
-    monkeypatch.setattr(module, "_free_memory", lambda: None)
+    monkeypatch.setattr(memory, "free", lambda: None)
     Accel(*random_triangles(20))
 
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from glanz.engine import Lambert, Material, Phong, SceneError
-from glanz.engine.world import accel, compile
+from glanz.engine import Lambert, Material, MemoryShortage, Phong, SceneError, memory
+from glanz.engine.world import compile
 from glanz.tests import helpers as h
 
 
@@ -134,9 +134,10 @@ def test_a_world_without_triangles_has_none():
 
 
 def test_geometry_beyond_memory_is_refused_by_the_scene(monkeypatch):
-    monkeypatch.setattr(accel, "_free_memory", lambda: 100)
-    with pytest.raises(SceneError, match=r"scene 'Scene': 2 triangles need about .* GiB"):
-        world_of(h.thing(h.quad()))
+    monkeypatch.setattr(memory, "free", lambda: 10_000)
+    told = r"scene 'Scene': its 30 triangles, most of them 20 of object 'icosphere', need about .* MiB of memory, .*: simplify or leave out"
+    with pytest.raises(MemoryShortage, match=told):
+        world_of(h.thing(h.quad()), *[h.thing(h.quad(name=f"quad {i}")) for i in range(4)], h.thing(h.icosphere(0)))
 
 
 def test_lobes_of_one_kind_in_one_material_get_a_slot_each():
