@@ -103,7 +103,7 @@ def _more(plan, warnings):
 
 
 def render_plan(plan, ends=(), cancelled=None, checkpoint=NO_CHECKPOINT):
-    """`render` for a `Plan` that is made already. Raises MemoryShortage if it would not fit, SceneError if the checkpoint is of another plan.
+    """`render` for a `Plan` that is made already. Raises SceneError if it would not fit into memory, or the checkpoint is of another plan.
 
     ends       numbers of samples, rising: the whole frame gets as many before any pixel gets more. Tiles come once for each,
                unfinished but for the last; without, each comes when it has all. Where pixels are divided `ends` count for nothing

@@ -47,12 +47,14 @@ class AreaLight:
 
     def _axes(self):
         matrix = np.asarray(self.world_from_light, np.float64)
-        return matrix[:3, 0] * self.size_x, matrix[:3, 1] * self.size_y
+        with np.errstate(over="ignore"):
+            return matrix[:3, 0] * self.size_x, matrix[:3, 1] * self.size_y
 
     def area(self):
         """World-space area [m^2]."""
         share = 0.25 * PI if self.is_ellipse else 1.0
-        return share * float(np.linalg.norm(np.cross(*self._axes())))
+        with np.errstate(over="ignore", invalid="ignore"):
+            return share * float(np.linalg.norm(np.cross(*self._axes())))
 
     def _normal(self):
         normal = -np.cross(*self._axes())

@@ -163,8 +163,7 @@ def _check_light(light, warnings):
         _check_shade(light.shade, light.name, warnings)
     # First what power() computes with.
     light.check()
-    with np.errstate(over="ignore", invalid="ignore"):
-        power = light.power()
+    power = light.power()
     if not np.isfinite(power).all():
         warnings.append(SceneWarning("its power is more than any number, so it is left out", "light", light.name, is_lost=True))
         return False
