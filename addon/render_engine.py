@@ -84,7 +84,7 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
         asked = {**command_line.overrides(), "width": self.resolution_x, "height": self.resolution_y}
         settings = settings_of(depsgraph.scene_eval, depsgraph.view_layer_eval, **asked)
         layer = depsgraph.view_layer.name
-        views = make_room(self, settings, layer)
+        views = make_room(self, settings, layer, depsgraph.scene_eval)
         begun = time.monotonic()
         self.update_stats("", "Exporting the scene")
         warnings = Warnings(self)

@@ -8,8 +8,8 @@ from contextlib import contextmanager
 
 import numpy as np
 
-from ..engine import PASSES
-from .passes import name_of
+from ..engine import PASSES, MemoryShortage, require_memory
+from .passes import chosen, name_of
 
 
 def flat_pixels(values):
@@ -42,22 +42,38 @@ def open_result(engine, place, layer, view=""):
         engine.end_result(result, cancel=not keep)
 
 
-def make_room(engine, settings, layer):
+def make_room(engine, settings, layer, scene=None):
     """Let Blender allocate its picture now, before anything can go wrong.
 
     It does so at the first result, and saving a picture that never had one is a crash; so is having no memory for it.
-    Raises MemoryError where the memory is not to be had. Returns the names of the views, ("",) where there is but one.
+    Blender has room for all passes of all view layers and eyes of a `scene` at once; without, for those of `settings` alone.
+    Raises GlanzError where the memory is not to be had. Returns the names of the views, ("",) where there is but one.
     """
     x0, y0, x1, y1 = settings.region
-    channels = sum(len(PASSES[key].channels) for key in settings.passes)
-    # Blender's picture, and a copy of it for the display.
-    size = 2 * 4 * channels * (x1 - x0) * (y1 - y0)
+    channels = _channels(scene) if scene else sum(len(PASSES[key].channels) for key in settings.passes)
+    # Blender's picture, and a copy of it for the display; what is not cut to its border is put into the full frame.
+    region = (x1 - x0) * (y1 - y0)
+    is_uncut = scene and scene.render.use_border and not scene.render.use_crop_to_border
+    size = 4 * channels * (region + (settings.width * settings.height if is_uncut else region))
+    what, cure = (
+        f"Blender's picture and its copy, {x1 - x0}x{y1 - y0} px with {channels} channels,",
+        "lower the resolution, or switch off passes",
+    )
+    require_memory(size, what, cure)
     try:
+        # Where the system does not say how much is free.
         np.empty(size, np.uint8)
     except MemoryError:
-        raise MemoryError(f"{x1 - x0}x{y1 - y0} px with {channels} channels take {size / 2**30:.1f} GB") from None
+        raise MemoryShortage(f"{what} take {size / 2**30:.1f} GiB of memory, which are not to be had: {cure}") from None
     with open_result(engine, (0, 0, 1, 1), layer) as result:
         return tuple(view.name for view in result.views) or ("",)
+
+
+def _channels(scene):
+    """Of all that Blender has room for."""
+    render = scene.render
+    eyes = sum(view.use for view in render.views) if render.use_multiview else 1
+    return eyes * sum(len(PASSES[key].channels) for layer in scene.view_layers if layer.use for key in chosen(layer, scene))
 
 
 def write_tile(engine, tile, region, layer, view=""):

@@ -33,6 +33,7 @@ from .lights.cosine_spot import CosineSpotLight
 from .lights.point import PointLight
 from .lights.spot import SpotLight
 from .lights.sun import SunLight
+from .memory import require as require_memory
 from .registry import FILTERS, INTEGRATORS, PASSES, SAMPLERS, TEXTURES
 from .rendering import Image, Progress, Tile, gathered, metadata, prepare, render, render_image, render_plan
 from .requirements import Requirements
@@ -234,6 +235,7 @@ __all__ = [
     "render",
     "render_image",
     "render_plan",
+    "require_memory",
     "textures_of",
     "validate",
     "write_exr",

@@ -11,14 +11,21 @@ from pathlib import Path
 import bpy
 import numpy as np
 
+from ...engine import require_memory
+
 
 def pixels_in(image):
-    """(H, W, 1 to 4) float32 as Blender hands an image out, row 0 is the bottom: bytes / 255, or scene-linear numbers. Or None."""
+    """(H, W, 1 to 4) float32 as Blender hands an image out, row 0 is the bottom: bytes / 255, or scene-linear numbers. Or None.
+
+    Raises MemoryShortage, naming the image, where neither they nor what is made of them would fit.
+    """
     # The first look at the pixels loads the file; only then its size is known.
     count = len(image.pixels)
     if not count:
         return None
     width, height = image.size
+    # As numbers, with four of them for each pixel, and as what is looked up.
+    require_memory(4 * count + 40 * width * height, f"the pixels of image '{image.name}', {width}x{height} of them,", "scale it down")
     pixels = np.empty(count, np.float32)
     image.pixels.foreach_get(pixels)
     return pixels.reshape(height, width, -1)

@@ -2,11 +2,12 @@
 
 from types import SimpleNamespace
 
+import bpy
 import numpy as np
 import pytest
 
 from glanz.addon.results import Outlines, flat_pixels, make_room, open_result, place_in_result
-from glanz.engine import Settings, Tile
+from glanz.engine import MemoryShortage, Settings, Tile, memory
 
 
 class Engine:
@@ -19,7 +20,7 @@ class Engine:
         if self.granted == "nothing":
             return None
         width, height = self.granted or (width, height)
-        return SimpleNamespace(resolution_x=width, resolution_y=height, layers=[])
+        return SimpleNamespace(resolution_x=width, resolution_y=height, layers=[], views=[])
 
     def end_result(self, result, cancel):
         self.ended.append(cancel)
@@ -85,13 +86,37 @@ def test_what_is_worked_on_is_outlined_and_nothing_else():
     assert shown == {(0, 52, 8, 8)}
 
 
+HUGE = Settings(width=16384, height=16384, passes=("Combined", "Depth"))
+
+
 def test_a_frame_that_has_no_room_is_refused_before_blender_is_asked(monkeypatch):
+    """To the byte, where the system says what is free, and where it does not."""
+    needed = 2 * 4 * 5 * 16384 * 16384
+    engine = Engine()
+    monkeypatch.setattr(memory, "free", lambda: (needed - 1) / memory.SHARE)
+    told = r"Blender's picture and its copy, 16384x16384 px with 5 channels, need about 10\.0 GiB of memory, .*: lower the resolution"
+    with pytest.raises(MemoryShortage, match=told):
+        make_room(engine, HUGE, "Layer")
+
     def refuse(size, dtype):
-        assert size == 2 * 4 * 5 * 16384 * 16384
+        assert size == needed
         raise MemoryError
 
+    monkeypatch.setattr(memory, "free", lambda: needed / memory.SHARE + 1)
     monkeypatch.setattr("glanz.addon.results.np.empty", refuse)
-    engine = Engine()
-    with pytest.raises(MemoryError, match=r"16384x16384 px with 5 channels take 10.0 GB"):
-        make_room(engine, Settings(width=16384, height=16384, passes=("Combined", "Depth")), "Layer")
+    with pytest.raises(MemoryShortage, match=r"16384x16384 px with 5 channels, take 10\.0 GiB of memory, which are not to be had: lower"):
+        make_room(engine, HUGE, "Layer")
     assert engine.ended == []
+
+
+def test_all_view_layers_eyes_and_the_frame_around_a_border_count(monkeypatch):
+    """Three channels of normals more in one of two layers, for each of two eyes; the border is a quarter."""
+    scene = bpy.context.scene
+    scene.view_layers.new("Other").use_pass_normal = True
+    scene.render.use_multiview = scene.render.use_border = True
+    told = []
+    monkeypatch.setattr("glanz.addon.results.require_memory", lambda needed, what, cure: told.append((needed, what)))
+    make_room(Engine(), Settings(width=100, height=80, border=(0, 0, 50, 40)), "Layer", scene)
+    (needed, what), channels = told[0], 2 * (4 + 4 + 3)
+    assert needed == 4 * channels * (50 * 40 + 100 * 80)
+    assert f"50x40 px with {channels} channels" in what
