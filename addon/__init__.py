@@ -6,7 +6,7 @@ import logging
 SETTINGS = ("properties", "light_settings", "material_settings")
 """The modules of what a .blend file stores."""
 _PANELS = ("panels", "accuracy", "light_panels", "pass_panels", "requirements_panel", "builtin_panels")
-_MODULES = ("preferences", *SETTINGS, "render_engine", "checks", "presets", *_PANELS, "command_line")
+_MODULES = ("preferences", *SETTINGS, "render_engine", "checks", "presets", *_PANELS, "command_line", "written")
 _registered = []
 
 

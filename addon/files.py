@@ -8,10 +8,10 @@ import bpy
 import numpy as np
 
 from ..engine import FileError, SceneError
+from .written import is_whole
 
 # A .blend file is plain, or packed by Zstandard, or, from old versions, by gzip.
 _STARTS = (b"BLENDER", b"\x28\xb5\x2f\xfd", b"\x1f\x8b")
-_PNG_END = b"IEND\xaeB`\x82"
 
 
 def open_blend(path):
@@ -49,7 +49,7 @@ def save_png(image, path, scene_name=None):
         with _datablock(image) as datablock, _png_settings(scene.render.image_settings):
             datablock.save_render(str(temporary), scene=scene)
         # Blender does not say when a disk was full.
-        if not temporary.read_bytes().endswith(_PNG_END):
+        if not is_whole(temporary):
             raise FileError(f"cannot write {path}: the file was cut off, is the disk full?")
         os.replace(temporary, path)
     except (OSError, RuntimeError) as error:

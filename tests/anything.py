@@ -39,6 +39,7 @@ from glanz.engine import (
     World,
 )
 from glanz.engine.registry import BSDFS
+from glanz.engine.scene.settings import PRECISIONS
 from glanz.tests import helpers as h
 
 flags = st.booleans()
@@ -339,6 +340,9 @@ def ways(draw):
             "tile_size": draw(st.sampled_from((0, 1, 3, 64))),
             "threads": draw(st.sampled_from((1, 1, 1, 3))),
             "motion_steps": draw(st.sampled_from((1, 3))),
+            "precision": draw(st.sampled_from(tuple(PRECISIONS))),
+            "clamp_direct": draw(rarely(st.just(0.0), st.sampled_from((1e-30, 1.0, 1e30)))),
+            "clamp_indirect": draw(rarely(st.just(0.0), st.sampled_from((1e-30, 1.0, 1e30)))),
             **changes,
         }
     )

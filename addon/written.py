@@ -1,0 +1,113 @@
+"""Files that Blender has written of a render: it says "Saved" of PNG and EXR files that a full disk has cut off.
+
+Such a file must not pass for a picture, nor be taken for one that needs no rendering any more: it is given another name, and it
+is said.
+"""
+
+import logging
+import os
+import struct
+from pathlib import Path
+
+import bpy
+
+from . import command_line
+
+CUT_OFF = ".cut_off"
+"""What is put behind the name of a file that is not whole."""
+log = logging.getLogger("glanz")
+_PNG_END = b"IEND\xaeB`\x82"
+_EXR_START = b"\x76\x2f\x31\x01"
+_EXR_TILED, _EXR_PARTS = 0x200, 0x1000
+
+
+def is_whole(path):
+    """Whether a PNG or EXR file is as long as it says; True for others, which Blender watches itself."""
+    with open(path, "rb") as file:
+        if file.seek(0, os.SEEK_END) == 0:
+            return False
+        if Path(path).suffix.lower() == ".png":
+            file.seek(-min(file.tell(), len(_PNG_END)), os.SEEK_END)
+            return file.read() == _PNG_END
+        if Path(path).suffix.lower() != ".exr":
+            return True
+        try:
+            file.seek(0)
+            return _is_whole_exr(file, os.path.getsize(path))
+        except (struct.error, EOFError):
+            return False
+
+
+def _is_whole_exr(file, size):
+    """Whether the chunk that comes last is there (OpenEXR documentation, *File Layout*); not looked at in tiled files."""
+    if file.read(4) != _EXR_START:
+        return False
+    (version,) = struct.unpack("<I", file.read(4))
+    has_parts = bool(version & _EXR_PARTS)
+    while _skip_header(file) and has_parts:
+        continue
+    if version & _EXR_TILED:
+        return True
+    # The table of the places of chunks, which is written last and is as long as there is no chunk.
+    start, places = file.tell(), []
+    while not places or start + 8 * len(places) < min(places):
+        places += struct.unpack("<Q", file.read(8))
+        if not places[-1]:
+            return False
+    last = max(places) + 4 * has_parts
+    file.seek(last)
+    _, length = struct.unpack("<iI", file.read(8))
+    return last + 8 + length <= size
+
+
+def _skip_header(file):
+    """Read to the end of a header; False where it was the empty one behind the headers of all parts."""
+    is_empty = True
+    while _read_name(file):
+        is_empty = False
+        _read_name(file)
+        (length,) = struct.unpack("<I", file.read(4))
+        file.seek(length, os.SEEK_CUR)
+    return not is_empty
+
+
+def _read_name(file):
+    name = b""
+    while (letter := file.read(1)) != b"\0":
+        if not letter:
+            raise EOFError
+        name += letter
+    return name
+
+
+def paths_of(scene):
+    """Where Blender may just have written a picture of `scene`: by its path, or with the number of the frame in it; of each eye."""
+    render = scene.render
+    still = bpy.path.abspath(render.filepath)
+    if render.use_file_extension and not still.lower().endswith(render.file_extension):
+        still += render.file_extension
+    paths = [Path(still), Path(render.frame_path(frame=scene.frame_current))]
+    eyes = [view.file_suffix for view in render.views if view.use] if render.use_multiview else []
+    return dict.fromkeys((*paths, *(path.with_name(f"{path.stem}{eye}{path.suffix}") for path in paths for eye in eyes)))
+
+
+@bpy.app.handlers.persistent
+def check(scene, _=None):
+    """Give files that were cut off another name, and say so; called by Blender when it has written a picture."""
+    if scene.render.engine != "GLANZ" or scene.render.is_movie_format:
+        return
+    for path in paths_of(scene):
+        if path.is_file() and not is_whole(path):
+            other = path.with_name(path.name + CUT_OFF)
+            os.replace(path, other)
+            message = f"the picture '{path}' was cut off when it was saved, is the disk full? What there is of it is called '{other.name}'"
+            log.error(message)
+            command_line.end_after_failure(message)
+
+
+def register():
+    bpy.app.handlers.render_write.append(check)
+
+
+def unregister():
+    bpy.app.handlers.render_write.remove(check)
