@@ -2,6 +2,7 @@
 
 import importlib
 import logging
+import sys
 
 SETTINGS = ("properties", "light_settings", "material_settings")
 """The modules of what a .blend file stores."""
@@ -34,6 +35,9 @@ def register():
 
 
 def unregister():
-    """Take everything back that `register` added; does nothing the second time."""
+    """Take everything back that `register` added; does nothing the second time. Raises RuntimeError while a picture is rendered."""
+    rendering = sys.modules.get(f"{__name__}.render_engine")
+    if rendering:
+        rendering.refuse_while_rendering()
     while _registered:
         _registered.pop().unregister()

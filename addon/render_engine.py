@@ -13,6 +13,9 @@ from .checks import Check, keep
 from .reports import Warnings, errors_logged, errors_shown, errors_told
 from .status import Status
 
+_rendering = []
+"""The engines that render a picture just now; Blender itself ends previews and 3D views."""
+
 
 class Cancelled(Exception):
     """The user pressed Esc during the export."""
@@ -67,7 +70,14 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
         # Blender knows when it was cancelled; what is finished stays.
         with (errors_logged if self.is_preview else errors_shown)(self), suppress(Cancelled):
             backend.load_or_raise()
-            (self._preview if self.is_preview else self._render)(depsgraph)
+            if self.is_preview:
+                self._preview(depsgraph)
+                return
+            _rendering.append(self)
+            try:
+                self._render(depsgraph)
+            finally:
+                _rendering.remove(self)
 
     def _preview(self, depsgraph):
         from .preview import render_preview
@@ -80,6 +90,7 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
         from .export import Findings, Kept, export_views
         from .results import Outlines, make_room, outcome, stamp, write_tile
         from .settings import doubling, settings_of
+        from .written import refuse_unwritable
 
         asked = {**command_line.overrides(), "width": self.resolution_x, "height": self.resolution_y}
         settings = settings_of(depsgraph.scene_eval, depsgraph.view_layer_eval, **asked)
@@ -88,6 +99,7 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
         begun = time.monotonic()
         self.update_stats("", "Exporting the scene")
         warnings = Warnings(self)
+        refuse_unwritable(self, depsgraph.scene_eval, warnings.show)
         findings, cameras = Findings(), [partial(self._camera, view) for view in views]
         persistent = self._persistent(depsgraph.scene_eval)
         frame_set = persistent.watched(depsgraph, self.frame_set) if persistent else self.frame_set
@@ -178,6 +190,12 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
     def _check(self):
         if self.is_cancelled():
             raise Cancelled
+
+
+def refuse_while_rendering():
+    """Raises RuntimeError while a picture is rendered: Blender crashes when its engine is taken away."""
+    if _rendering:
+        raise RuntimeError("Glanz renders a picture just now: end that, then switch Glanz off")
 
 
 def register():

@@ -7,6 +7,7 @@ is said.
 import logging
 import os
 import struct
+import tempfile
 from pathlib import Path
 
 import bpy
@@ -89,6 +90,37 @@ def paths_of(scene):
     paths = [Path(still), Path(render.frame_path(frame=scene.frame_current))]
     eyes = [view.file_suffix for view in render.views if view.use] if render.use_multiview else []
     return dict.fromkeys((*paths, *(path.with_name(f"{path.stem}{eye}{path.suffix}") for path in paths for eye in eyes)))
+
+
+def refuse_unwritable(engine, scene, show):
+    """Tell before the work what would be told after it: that the picture of `scene` cannot be saved where it should be.
+
+    Raises SceneError for an animation, whose frames are all saved; a still is said to `show`, a function of lines, in the background,
+    where it most likely is, and elsewhere not at all.
+    """
+    from ..engine import SceneError
+
+    if scene.render.is_movie_format or not (engine.is_animation or bpy.app.background):
+        return
+    path = Path(scene.render.frame_path(frame=scene.frame_current))
+    obstacle = _obstacle(path)
+    if obstacle:
+        message = f"scene '{scene.name}': its picture cannot be saved as '{path}': {obstacle}"
+        if engine.is_animation:
+            raise SceneError(f"{message}; choose another output path")
+        show((message,))
+
+
+def _obstacle(path):
+    """Why no file can be made at `path`, empty if one can; Blender makes the folders that are missing."""
+    if path.is_dir():
+        return "it is a folder"
+    folder = next(folder for folder in path.absolute().parents if folder.exists())
+    try:
+        with tempfile.TemporaryFile(dir=folder):
+            return ""
+    except OSError as error:
+        return f"'{folder}' is not to be written to ({error.strerror or error})"
 
 
 @bpy.app.handlers.persistent

@@ -1,14 +1,22 @@
 """What may go wrong around a render, and how it ends: a message that names the cause, finished samples kept, Blender alive (faults J)."""
 
+import itertools
+import random
 import resource
 import signal
 import subprocess
 import sys
 import textwrap
+import threading
 
 import bpy
+import numpy as np
 import pytest
 
+import glanz
+from glanz import engine
+from glanz.addon import render_engine, reports, results
+from glanz.engine import rendering
 from glanz.tests.addon import blender
 
 
@@ -37,6 +45,121 @@ def test_persistent_data_does_not_hide_that_nothing_was_rendered(lit, tmp_path):
     bpy.context.view_layer.use = False
     with pytest.raises(RuntimeError, match="no view layer is rendered"):
         blender.render(tmp_path / "b.exr")
+
+
+# Interruptions
+
+
+def at_each_look_for_esc(monkeypatch, action):
+    """Let `action` (number) say whether Esc is pressed at that look of a render for it."""
+    looks = itertools.count()
+    monkeypatch.setattr(render_engine.GlanzRenderEngine, "is_cancelled", lambda engine: action(next(looks)))
+
+
+@pytest.mark.parametrize(("progress", "noise"), [("TILES", 0.0), ("FRAME", 0.02)])
+def test_esc_at_any_moment_leaves_what_is_finished_and_nothing_else(progress, noise, lit, tmp_path, monkeypatch):
+    """Twenty moments from the first look to the last: whole tiles of the right radiance, no thread, and the next render is whole (J4)."""
+    scene = bpy.context.scene
+    scene.render.resolution_x = scene.render.resolution_y = 40
+    scene.glanz.tile_size, scene.glanz.progress, scene.glanz.samples = 8, progress, 4
+    seen = []
+    at_each_look_for_esc(monkeypatch, seen.append)
+    whole = blender.read_exr(blender.render(tmp_path / "whole.exr"))["ViewLayer.Combined"]
+    rng, finished = random.Random(1), []
+    for _ in range(20):
+        moment = rng.randrange(len(seen))
+        at_each_look_for_esc(monkeypatch, lambda look, moment=moment: look >= moment)
+        pixels = blender.read_exr(blender.render(tmp_path / "a.exr"))["ViewLayer.Combined"]
+        is_there = pixels[..., 3] > 0
+        np.testing.assert_allclose(pixels[is_there], whole[is_there], rtol=noise)
+        assert not pixels[~is_there].any()
+        tiles = is_there.reshape(5, 8, 5, 8).sum(axis=(1, 3))
+        assert np.isin(tiles, (0, 64)).all()
+        finished.append(int(tiles.sum()) // 64)
+        assert not [thread for thread in threading.enumerate() if thread.name.startswith("glanz")]
+    assert len(set(finished)) > 1
+    monkeypatch.undo()
+    np.testing.assert_array_equal(blender.read_exr(blender.render(tmp_path / "b.exr"))["ViewLayer.Combined"], whole)
+
+
+def test_results_are_begun_and_ended_by_the_thread_that_renders_alone(lit, tmp_path, monkeypatch):
+    """Whatever threads there are (J20)."""
+    writers, write = set(), results.write_tile
+    monkeypatch.setattr(results, "write_tile", lambda *args: writers.add(threading.get_ident()) or write(*args))
+    scene = bpy.context.scene
+    scene.glanz.tile_size, scene.render.threads_mode, scene.render.threads = 8, "FIXED", 4
+    blender.render(tmp_path / "a.exr")
+    assert writers == {threading.get_ident()}
+
+
+def test_what_is_deleted_during_a_render_is_rendered_all_the_same(lit, tmp_path, monkeypatch):
+    """Everything was copied before (J21)."""
+    bpy.context.scene.glanz.tile_size = 8
+    whole = blender.read_exr(blender.render(tmp_path / "whole.exr"))["ViewLayer.Combined"]
+
+    def delete(look):
+        if look == 3:
+            for data in (bpy.data.objects, bpy.data.meshes, bpy.data.worlds, bpy.data.materials):
+                for block in list(data):
+                    if block.name != "Camera":
+                        data.remove(block)
+
+    at_each_look_for_esc(monkeypatch, delete)
+    np.testing.assert_array_equal(blender.read_exr(blender.render(tmp_path / "a.exr"))["ViewLayer.Combined"], whole)
+    assert not bpy.data.meshes
+
+
+def test_an_exported_scene_outlives_its_file(lit):
+    """Not a number of it is Blender's: with another file open it renders to the same bits (J21)."""
+    image = bpy.data.images.new("Noise", 64, 64)
+    image.pixels.foreach_set(np.random.default_rng(1).random(4 * 64 * 64, np.float32))
+    body = blender.add_tetrahedron()
+    body.data.materials.append(blender.new_material("Painted", "ShaderNodeBsdfDiffuse"))
+    tree = body.data.materials[0].node_tree
+    texture = tree.nodes.new("ShaderNodeTexImage")
+    texture.image = image
+    tree.links.new(texture.outputs[0], tree.nodes["Diffuse BSDF"].inputs[0])
+    body.data.uv_layers.new()
+    scene, _ = blender.export()
+    settings = engine.Settings(width=16, height=16, samples=2, threads=1)
+    before = engine.render_image(scene, settings).passes["Combined"]
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=False)
+    for _ in range(50):
+        # What was freed is used again.
+        blender.new_mesh("Other", [(number, 1, 2) for number in range(3000)], [])
+    np.testing.assert_array_equal(engine.render_image(scene, settings).passes["Combined"], before)
+
+
+def test_glanz_is_not_switched_off_while_it_renders(lit, tmp_path, monkeypatch):
+    """Blender would crash (J21). Afterwards it is."""
+    refused = []
+
+    def switch_off(look):
+        if look == 2:
+            with pytest.raises(RuntimeError, match="Glanz renders a picture just now: end that, then switch Glanz off") as error:
+                glanz.unregister()
+            refused.append(error)
+
+    at_each_look_for_esc(monkeypatch, switch_off)
+    assert blender.render(tmp_path / "a.exr").exists()
+    assert refused
+    glanz.unregister()
+    assert not hasattr(bpy.types.Scene, "glanz")
+    glanz.register()
+
+
+def test_collections_in_collections_in_collections_are_no_recursion_of_ours(lit, tmp_path):
+    """Instances nested more deeply than Blender itself unfolds them, which says how deep that is (J23)."""
+    inner = bpy.data.collections.new("0")
+    inner.objects.link(blender.add_tetrahedron())
+    for number in range(1, 40):
+        empty = bpy.data.objects.new(f"Instance {number}", None)
+        empty.instance_type, empty.instance_collection = "COLLECTION", inner
+        inner = bpy.data.collections.new(str(number))
+        inner.objects.link(empty)
+    blender.link("Outermost", None).instance_type = "COLLECTION"
+    bpy.data.objects["Outermost"].instance_collection = inner
+    assert np.isfinite(blender.read_exr(blender.render(tmp_path / "a.exr"))["ViewLayer.Combined"]).all()
 
 
 # Files that Blender writes
@@ -97,6 +220,30 @@ def test_eyes_with_files_of_their_own_are_looked_at_too(lit, limited, tmp_path):
     limited(100)
     save("PNG", tmp_path / "a.png")
     assert {path.name for path in tmp_path.iterdir()} == {f"{name}.cut_off" for name in names}
+
+
+@pytest.mark.parametrize("how", [{"write_still": True}, {"animation": True}], ids=["still", "animation"])
+def test_where_nothing_can_be_saved_is_told_before_the_work(how, lit, tmp_path, monkeypatch):
+    """Where a folder should be is a file (J11). An animation is not even begun."""
+    (tmp_path / "file").write_text("mine")
+    told, begun, render = [], [], rendering.render_plan
+    monkeypatch.setattr(rendering, "render_plan", lambda *args, **kwargs: begun.append(len(told)) or render(*args, **kwargs))
+    monkeypatch.setattr(reports.Warnings, "show", lambda self, lines: told.extend(lines))
+    bpy.context.scene.frame_start = bpy.context.scene.frame_end = 1
+    with pytest.raises(RuntimeError, match="file"):
+        save("PNG", tmp_path / "file" / "a", **how)
+    assert begun == ([1] if "write_still" in how else [])
+    if "write_still" in how:
+        assert told[0].startswith(
+            f"scene 'Scene': its picture cannot be saved as '{tmp_path}/file/a0001.png': '{tmp_path}/file' is not to be"
+        )
+    assert [path.name for path in tmp_path.iterdir()] == ["file"]
+    assert (tmp_path / "file").read_text() == "mine"
+
+
+def test_folders_that_blender_makes_are_no_obstacle(lit, tmp_path):
+    save("PNG", tmp_path / "new" / "one" / "a.png")
+    assert (tmp_path / "new" / "one" / "a.png").exists()
 
 
 def test_a_farm_is_told_by_the_exit_status(tmp_path):
