@@ -36,7 +36,7 @@ help:
 	@echo "make test             run all tests"
 	@echo "make test-matrix      run what needs Blender in Blender 4.2, 4.5, 5.0 and 5.2"
 	@echo "make desktop-test     try Glanz in a Blender with a window: BLENDER=/path/to/blender make desktop-test"
-	@echo "make test-thorough    draw many new examples for tests of laws, in an hour; GLANZ_SEED=... draws the same again"
+	@echo "make test-thorough    draw many new examples and random numbers for tests of laws, within an hour; GLANZ_SEED=... draws the same again"
 	@echo "make bench            measure speed against Cycles"
 	@echo "make bench-growth     measure how time and memory grow with pixels, triangles, lights, threads, ...; GROWTH=--quick in a minute"
 	@echo "make bench-targets    measure whether error targets are reached, in half an hour; TARGETS=--quick in two minutes"

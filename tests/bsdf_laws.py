@@ -8,7 +8,7 @@ import numpy as np
 from glanz.engine.interfaces import albedo_of
 from glanz.engine.maths.frames import to_world
 from glanz.engine.maths.vectors import dot, reflect
-from glanz.tests import helpers as h
+from glanz.tests import chance, helpers as h
 
 NORMAL = h.unit(0.3, -0.5, 0.8)
 ANGLES = (0.0, 0.7, 1.3, np.pi / 2 - 1e-5)
@@ -102,7 +102,7 @@ def check_density_integrates_to_one(value):
 
 
 def check_samples_follow_the_density(value, n=100_000):
-    k = h.table(value.row())
+    k, n = h.table(value.row()), chance.times(n)
     for seed, angle in enumerate(ANGLES):
         wo = viewer(angle)
         coordinates = smooth_coordinates(value, k, wo)[0][1]

@@ -27,6 +27,7 @@ from glanz.engine.arrays import columns
 from glanz.engine.plan import Plan
 from glanz.engine.rendering import render_plan
 from glanz.engine.world.frame import Frame
+from glanz.tests import chance
 
 ALPHA = 1e-6
 Z = stats.norm.isf(ALPHA / 2)
@@ -143,8 +144,12 @@ FAST = {"width": 8, "height": 8, "samples": 4, "sampler": "stratified", "pixel_f
 
 
 def settings(**changes):
-    """Small settings: 8 x 8, 4 samples, box filter, one thread; stratified, by which tolerances are set, though others have less noise."""
-    return Settings(**{**FAST, **changes})
+    """Small settings: 8 x 8, 4 samples, box filter, one thread; stratified, by which tolerances are set, though others have less noise.
+
+    In a `fresh` test of a thorough run there are more samples, with a seed of its own.
+    """
+    values = {"seed": 0, **FAST, **changes}
+    return Settings(**values | {"seed": chance.seeded(values["seed"]), "samples": chance.times(values["samples"])})
 
 
 def scene(objects=(), lights=(), camera=None, world=0.0, **others):
@@ -192,18 +197,18 @@ def receiver(lights=(), objects=(), point=(0, 0, 0), normal=(0, 0, 1), material=
 
 def uniform(seed, n, dtype=np.float64):
     """u2 (2, n) in [0, 1)."""
-    return np.random.default_rng(seed).random((2, n), dtype)
+    return np.random.default_rng(chance.seeded(seed)).random((2, n), dtype)
 
 
 def stratified(seed, side, dtype=np.float64):
     """u2 (2, side * side), jittered in square cells: far less noise than `uniform` where no statistics is wanted."""
     cells = np.indices((side, side)).reshape(2, -1)
-    return ((cells + np.random.default_rng(seed).random(cells.shape)) / side).astype(dtype)
+    return ((cells + np.random.default_rng(chance.seeded(seed)).random(cells.shape)) / side).astype(dtype)
 
 
 def directions(seed, n, dtype=np.float64):
     """Uniform unit vectors (3, n)."""
-    d = np.random.default_rng(seed).standard_normal((3, n))
+    d = np.random.default_rng(chance.seeded(seed)).standard_normal((3, n))
     return (d / np.linalg.norm(d, axis=0)).astype(dtype)
 
 

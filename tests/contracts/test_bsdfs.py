@@ -26,7 +26,7 @@ from glanz.engine.maths.frames import to_world
 from glanz.engine.maths.vectors import cosine_power, dot, reflect
 from glanz.engine.maths.warps import square_to_cosine_power
 from glanz.engine.registry import BSDFS
-from glanz.tests import helpers as h
+from glanz.tests import chance, helpers as h
 from glanz.tests.bsdf_laws import (
     ANGLES,
     NORMAL,
@@ -71,6 +71,7 @@ def test_density_integrates_to_one_with_its_part_below_the_horizon(value):
 
 
 @each
+@chance.fresh
 def test_samples_follow_the_density(value):
     """chi2 in 32 x 32 bins, 1e5 samples for each of 4 viewers; detects 4 % of the density in half of the bins."""
     check_samples_follow_the_density(value)

@@ -11,7 +11,7 @@ from glanz.engine.interfaces import Integrator
 from glanz.engine.registry import INTEGRATORS
 from glanz.engine.scene.validate import validate
 from glanz.engine.world.accel import Accel
-from glanz.tests import helpers as h, scenes
+from glanz.tests import chance, helpers as h, scenes
 
 each = pytest.mark.parametrize("integrator", INTEGRATORS.values(), ids=lambda i: i.key)
 UNPHYSICAL = [INTEGRATORS["whitted_phong"]]
@@ -41,6 +41,7 @@ def test_an_integrator_offers_the_interface(integrator):
 
 
 @each_complete
+@chance.fresh
 def test_an_integrator_fills_the_furnace(integrator):
     """Detects 1 %."""
     check_furnace(integrator)
@@ -71,6 +72,7 @@ def check_same_light(integrator):
 
 
 @each_complete
+@chance.fresh
 def test_all_integrators_find_the_same_light_as_path_tracing(integrator):
     check_same_light(integrator)
 

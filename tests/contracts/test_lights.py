@@ -13,7 +13,7 @@ from glanz.engine.interfaces import Light
 from glanz.engine.maths import bulbs
 from glanz.engine.maths.vectors import dot
 from glanz.engine.registry import LIGHTS
-from glanz.tests import helpers as h
+from glanz.tests import chance, helpers as h
 
 ABOVE = (0.4, -0.3, 2.0)
 DOWN = h.affine(h.frame_towards((0.1, 0.2, 1.0)), ABOVE)
@@ -155,11 +155,13 @@ def test_a_light_without_size_cannot_be_met(value):
 
 
 @each_extended
+@chance.fresh
 def test_rays_meet_what_was_sampled(value):
     check_rays_meet_what_was_sampled(value)
 
 
 @each_extended
+@chance.fresh
 def test_samples_follow_the_density(value):
     """4e4 samples in 12 x 12 bins; detects 10 % of the density in half of the bins, and 1 % of the whole."""
     check_samples_follow_the_density(value)

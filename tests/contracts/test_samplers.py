@@ -18,7 +18,7 @@ from glanz.engine.samplers.random import Random
 from glanz.engine.samplers.sobol import Sobol
 from glanz.engine.samplers.stratified import Stratified
 from glanz.engine.wavefront.numbers import hashed_pixel
-from glanz.tests import helpers as h
+from glanz.tests import chance, helpers as h
 
 STRATIFIED = (Stratified, Multijitter)
 COUNTS = (1, 2, 4, 6, 12, 16, 17, 64, 1024)
@@ -30,7 +30,7 @@ each_random = pytest.mark.parametrize("sampler", [s for s in SAMPLERS.values() i
 def keys(n, seed=0, sampler=Random, apart=1):
     """Keys of n pixels in rows of 512, `apart` px from each other, as the engine makes them."""
     py, px = np.divmod(np.arange(n), 512)
-    return getattr(sampler, "pixel_key", hashed_pixel)(apart * px, apart * py, apart * 512, seed)
+    return getattr(sampler, "pixel_key", hashed_pixel)(apart * px, apart * py, apart * 512, chance.seeded(seed))
 
 
 def batch(sampler, pixels, samples, dimension, seed=0, apart=1):
@@ -127,24 +127,28 @@ def test_numbers_depend_on_nothing_but_pixel_sample_and_dimension(sampler):
 
 
 @each_random
+@chance.fresh
 def test_every_single_sample_is_uniform(sampler):
     """Detects 17 % of the density in half of 64 intervals."""
     check_every_sample_is_uniform(sampler)
 
 
 @each_random
+@chance.fresh
 def test_dimensions_are_independent(sampler):
     """Detects a correlation of 2 %."""
     check_dimensions_are_independent(sampler)
 
 
 @each_random
+@chance.fresh
 def test_pixels_and_seeds_are_independent(sampler):
     """Detects a correlation of 1.6 %."""
     check_pixels_are_independent(sampler)
 
 
 @each
+@chance.fresh
 def test_the_mean_is_unbiased_for_a_number_of_samples_that_makes_no_square(sampler):
     """B8: 17 samples. Detects a bias of 1.1e-3 of f = x + y."""
     _, (x, y) = batch(sampler, 20_000, 17, 3, seed=2)

@@ -5,7 +5,7 @@ import pytest
 
 from glanz.engine import OrthographicCamera
 from glanz.engine.wavefront import camera_rays
-from glanz.tests import helpers as h
+from glanz.tests import chance, helpers as h
 
 SIDE = 8
 CORNERS = np.array(((-3.1, -2.7), (3.3, -1.9), (0.7, 3.6))).T
@@ -68,6 +68,7 @@ def check_coverage():
     assert chi2 < 100
 
 
+@chance.fresh
 def test_a_pixel_is_the_area_that_is_covered():
     check_coverage()
 

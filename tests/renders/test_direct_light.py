@@ -12,7 +12,7 @@ import pytest
 from glanz.engine import AreaLight, Lambert, Material, Phong, PointLight, SpotLight, SunLight
 from glanz.engine.wavefront import direct
 from glanz.engine.world.lights import Lights
-from glanz.tests import helpers as h
+from glanz.tests import chance, helpers as h
 from glanz.tests.polygons import polygon_irradiance
 
 SQUARE = 0.752274688
@@ -60,6 +60,7 @@ def test_lights_without_a_size_give_the_closed_form_in_every_pixel(name):
 
 
 @pytest.mark.parametrize("name", NOISY)
+@chance.fresh
 def test_lights_with_a_size_give_the_closed_form_on_average(name):
     """E4 and its kin; detects 0.3 %."""
     light, truth = NOISY[name]
@@ -90,6 +91,7 @@ def test_diffuse_light_does_not_depend_on_where_it_is_seen_from(tilt):
 
 
 @pytest.mark.parametrize("scale", [1e-6, 1e6])
+@chance.fresh
 def test_closed_forms_hold_at_every_scale(scale):
     light = PointLight(position=tuple(scale * np.array((1.0, 2.0, 2.0))), intensity=tuple(scale**2 * COLOUR))
     values = irradiances(h.receiver([light], size=0.01 * scale, distance=scale), samples=2)
@@ -102,11 +104,13 @@ def emissive(mesh, radiance=1.0):
     return h.thing(mesh, h.lambert(0, "lamp", radiance))
 
 
+@chance.fresh
 def test_an_emissive_square_gives_what_an_area_light_gives():
     values = irradiances(h.receiver(objects=[emissive(h.quad((0, 0, 1)))], distance=0.5))
     assert h.mean_is(values[0], SQUARE, floor=1e-5)
 
 
+@chance.fresh
 def test_an_emissive_polygon_is_cut_off_at_the_horizon():
     """E5 with the receiver tilted until the polygon sinks into its plane; detects 0.5 %."""
     corners = np.array([(0.5, -0.4, 0.3), (1.0, 0.5, -0.3), (0.8, 0.8, 0.6), (0.3, 0.2, 0.9)])
@@ -120,6 +124,7 @@ def test_an_emissive_polygon_is_cut_off_at_the_horizon():
 
 
 @pytest.mark.parametrize("ratio", [0.1, 1 / 3, 0.9])
+@chance.fresh
 def test_an_emissive_sphere_gives_the_sum_over_its_visible_triangles(ratio):
     """E6: a sphere of 80 triangles against its own polygons, hidden ones left out by their normals; detects 0.5 %.
 
@@ -138,6 +143,7 @@ def test_an_emissive_sphere_gives_the_sum_over_its_visible_triangles(ratio):
 
 @pytest.mark.parametrize("count", [2, 5, 16, 17, 40])
 @pytest.mark.parametrize("kind", ["area", "point", "mesh"])
+@chance.fresh
 def test_light_does_not_depend_on_how_many_it_is_divided_among(count, kind):
     """E12: n lights of one n-th each; detects 1 %. Beyond 16 lamps, and 32 lights to choose among, other code runs."""
     lights, objects = [], []
@@ -198,6 +204,7 @@ def test_light_objects_cast_no_shadow():
     assert h.mean_is(irradiances(h.receiver(lights, distance=0.5))[0], SQUARE, floor=1e-5)
 
 
+@chance.fresh
 def test_half_of_a_light_behind_an_edge_gives_half():
     """A square light seen past a wall that covers half of it; detects 1 %."""
     wall = h.thing(h.quad((5, 0, 0.75), (10, 0, 0), (0, 10, 0), name="wall"), h.lambert(0))

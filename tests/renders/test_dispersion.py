@@ -9,7 +9,7 @@ from glanz.engine import Dielectric, Material, Medium, PerspectiveCamera
 from glanz.engine.maths import spectrum
 from glanz.engine.maths.spectrum import CHANNELS, place
 from glanz.engine.wavefront import continuation, dispersion
-from glanz.tests import helpers as h
+from glanz.tests import chance, helpers as h
 
 APEX = np.radians(60)
 OPEN = Dielectric(1.5, (0.0,) * 3, (1.0,) * 3, is_fresnel=False)
@@ -145,6 +145,7 @@ def seen_in_even_light(things, **settings):
 
 @pytest.mark.parametrize("nested", [False, True])
 @pytest.mark.parametrize("sampler", ["random", "stratified"])
+@chance.fresh
 def test_white_stays_white(nested, sampler):
     """D16: glass that spreads colours, alone and around a bubble, is as bright as even light around it, in each channel; detects 1 %."""
     things = [ball(DIAMOND), *([ball(Dielectric(1.0), 0.6, "bubble")] if nested else [])]
@@ -164,6 +165,7 @@ def test_even_light_catches_weights_that_are_not_those_of_the_sampling(monkeypat
         test_white_stays_white(False, "random")
 
 
+@chance.fresh
 def test_a_dispersive_slab_at_right_angles_passes_white():
     """D16: T = 2 n / (n^2 + 1) of each wavelength; the mean of each channel over its wavelengths; detects 0.7 %."""
     slab = h.thing(h.box((-3, -3, 0), (3, 3, 1)), Material(name="slab", lobes=(DIAMOND,)))

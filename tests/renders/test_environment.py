@@ -9,7 +9,7 @@ from glanz.engine import AreaLight, EnvironmentMap, Material, PanoramaCamera, Ph
 from glanz.engine.plan import Plan
 from glanz.engine.wavefront import direct, escape
 from glanz.engine.world.environment import Environment
-from glanz.tests import helpers as h
+from glanz.tests import chance, helpers as h
 
 GLOSSY = Material(name="glossy", lobes=(Phong((0.8, 0.6, 0.4), 30.0),))
 NOISE = np.random.default_rng(3).random((3, 8, 16)).astype(np.float32) ** 3
@@ -45,6 +45,7 @@ TRUTHS = {
 
 
 @pytest.mark.parametrize("name", TRUTHS)
+@chance.fresh
 def test_skies_give_the_closed_form(name):
     """E15: an even sky pi, half of it pi / 2; detects 0.5 %."""
     world, truth = TRUTHS[name]
@@ -63,6 +64,7 @@ def test_the_closed_form_catches_a_sky_that_shadow_rays_find_too_bright(monkeypa
     assert not h.mean_is(irradiances(under(TRUTHS["constant"][0]), samples=256)[0], math.pi, floor=1e-5)
 
 
+@chance.fresh
 def test_a_patch_sees_of_a_picture_what_quadrature_says():
     """Irradiance of a tilted patch under noise, against a sum over directions; detects 0.5 %."""
     normal = np.array((0.3, -0.5, 0.6)) / math.sqrt(0.7)
@@ -122,6 +124,7 @@ def image_of(scene, seed, **changes):
 
 @pytest.mark.parametrize("pixels", [NOISE, SPOT], ids=["noise", "spot"])
 @pytest.mark.parametrize("material", [h.lambert(0.8), GLOSSY], ids=lambda m: m.name)
+@chance.fresh
 def test_every_way_finds_the_same_sky(monkeypatch, pixels, material):
     """E14: shadow rays, scattered rays and both, with and without lamps that share the choice; Welch over 144 pixels."""
     for lights in ((), (PointLight(position=(0.2, 0.3, 1.0)), SunLight(angle=0.2, irradiance=(0.3,) * 3))):

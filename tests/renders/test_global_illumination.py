@@ -15,7 +15,7 @@ from glanz.engine.wavefront import continuation, emission
 from glanz.engine.wavefront.film import Film
 from glanz.engine.wavefront.loop import trace
 from glanz.engine.wavefront.records import Rays
-from glanz.tests import helpers as h
+from glanz.tests import chance, helpers as h
 
 INSIDE = PerspectiveCamera.look_at((0.3, 0.4, 0.5), (0.9, 0.8, 0.2), fov=math.radians(80))
 MESHES = {"box": h.box(), "sphere": h.icosphere(1, centre=(0.4, 0.5, 0.5)), "prism": h.box((0, 0, 0), (1, 1, 40.0))}
@@ -68,6 +68,7 @@ def test_the_furnace_does_not_depend_on_scale_or_handedness(monkeypatch, scale, 
 
 @pytest.mark.parametrize("depth", [0, 2, 40])
 @pytest.mark.parametrize("name", ["box", "sphere"])
+@chance.fresh
 def test_the_furnace_is_the_same_with_shadow_rays_and_roulette(name, depth):
     """F1 as it is rendered; detects 1 %."""
     image = h.pixels(furnace(MESHES[name], 0.8), h.settings(width=16, height=16, samples=64, max_depth=depth))
@@ -93,6 +94,7 @@ def test_the_series_catches_roulette_that_forgets_its_probability(monkeypatch):
 
 
 @pytest.mark.parametrize("r", [0.1, 0.5, 0.9])
+@chance.fresh
 def test_roulette_does_not_change_the_mean(monkeypatch, r):
     """F7: with it, without it, and with an early start; detects 1 %."""
     scene, settings = furnace(h.box(), r), h.settings(width=16, height=16, samples=32, max_depth=12)
@@ -105,6 +107,7 @@ def test_roulette_does_not_change_the_mean(monkeypatch, r):
 
 
 @pytest.mark.parametrize("light", [0, 1, 2, 3])
+@chance.fresh
 def test_photons_are_lost_only_where_they_are_absorbed(light):
     """F3: in a cube of side 2 that reflects r = 0.5, any lights of flux Phi give the mean irradiance Phi / (A (1 - r)).
 
@@ -188,6 +191,7 @@ def test_a_white_convex_object_vanishes_in_white_light(name):
     assert image.mean() == pytest.approx(1, abs=1e-6 if name != "smooth sphere" else 5e-3)
 
 
+@chance.fresh
 def test_white_concave_objects_vanish_in_white_light():
     """F2 with many bounces; detects 0.5 %. Paths of more than 100 bounces carry less than 1e-3 of the light here."""
     well = [h.quad(c, x, y, name=f"{c}") for c, x, y in (
@@ -202,6 +206,7 @@ def test_white_concave_objects_vanish_in_white_light():
 
 
 @pytest.mark.parametrize(("degrees", "albedo"), [(0, 1.0), (45, 0.707374), (80, 0.228056)])
+@chance.fresh
 def test_a_phong_surface_in_white_light_shows_its_albedo(degrees, albedo):
     """F2 and C2 for n = 10; detects 0.3 %."""
     material = Material(name="shiny", lobes=(Phong((1.0, 1.0, 1.0), 10.0),))
@@ -239,6 +244,7 @@ def test_channels_do_not_mix():
     assert (image[0] != image[1]).any()
 
 
+@chance.fresh
 def test_channels_do_not_mix_on_average_where_roulette_plays():
     """F12 with many bounces; detects 2 %."""
     settings = h.settings(width=16, height=16, samples=64, max_depth=8)

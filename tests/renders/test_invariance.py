@@ -11,7 +11,7 @@ from glanz.engine.wavefront import numbers, visibility
 from glanz.engine.wavefront.film import Film
 from glanz.engine.wavefront.loop import few_wait
 from glanz.engine.world.frame import Frame
-from glanz.tests import helpers as h, scenes
+from glanz.tests import chance, helpers as h, scenes
 
 SMALL = h.settings(width=24, height=16, samples=4, max_depth=3, threads=2)
 FULL = h.replaced(SMALL, passes=("Combined", "Depth", "Normal"))
@@ -194,6 +194,7 @@ def test_a_border_renders_the_same_pixels(all_reference, border):
     assert h.same_bits(all_passes(h.replaced(FULL, border=border)), all_reference[y0:y1, x0:x1])
 
 
+@chance.fresh
 def test_one_pixel_is_the_mean_of_many():
     """G10: a frame of 16 x 16 pixels with the box filter against one of 1 x 1; detects 1 %."""
     scene = diffuse_scene()
@@ -300,6 +301,7 @@ def test_brightness_scales_at_the_extremes(reference, power):
 
 
 @pytest.mark.parametrize("seed", [0, 1, 2**31 - 1, -1, 2**70])
+@chance.fresh
 def test_every_integer_is_a_seed(seed):
     """H5: and gives noise of its own: residuals of two seeds are not correlated, |r| < 4.9 / sqrt(N)."""
     settings = h.settings(width=32, height=32, samples=1, max_depth=2)

@@ -11,7 +11,7 @@ from glanz.engine.wavefront import direct, visibility
 from glanz.engine.world import interaction
 from glanz.engine.world.accel import Accel
 from glanz.engine.world.measured import MeasuredAccel
-from glanz.tests import helpers as h
+from glanz.tests import chance, helpers as h
 
 TREES = {"fast": Accel, "exact": MeasuredAccel}
 """Whom rays of each precision ask."""
@@ -31,11 +31,11 @@ def escapes(mesh, monkeypatch, precision="fast", scale=1.0, offset=(0.0, 0.0, 0.
     eye = np.array(offset) + scale * np.array((0.11, -0.07, 0.05))
     camera = PerspectiveCamera.look_at(eye, eye + scale * np.array((0.3, 0.5, 0.2)), fov=math.radians(100))
     calls = h.spy(monkeypatch, TREES[precision], "closest")
-    side = math.isqrt(paths)
+    side = math.isqrt(chance.times(paths))
     # The walk goes on because the world could be seen.
     h.pixels(
         h.scene([h.thing(mesh, h.lambert(1.0), matrix)], camera=camera, world=1.0),
-        h.settings(width=side, height=side, samples=1, max_depth=depth, precision=precision),
+        h.replaced(h.settings(width=side, height=side, max_depth=depth, precision=precision), samples=1),
     )
     traced = [call.result.prim for call in calls if call.result.prim.size > 1]
     monkeypatch.undo()
@@ -45,19 +45,21 @@ def escapes(mesh, monkeypatch, precision="fast", scale=1.0, offset=(0.0, 0.0, 0.
 @pytest.mark.parametrize("precision", TREES)
 @pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
 @pytest.mark.parametrize("name", ["cube", "star"])
+@chance.fresh
 def test_random_walks_stay_inside(monkeypatch, name, scale, precision):
     """A5: at most 5 of 1e6 segments escape, at every scale (3e-7 per segment are expected at corners)."""
     lost, segments = escapes({"cube": CUBE, "star": star()}[name], monkeypatch, precision, scale)
-    assert segments > 0.95e6
-    assert lost <= 5
+    assert segments > chance.times(0.95e6)
+    assert lost <= (5 if segments < 2e6 else 15)
 
 
 @pytest.mark.parametrize("precision", TREES)
+@chance.fresh
 def test_random_walks_stay_inside_far_from_the_origin(monkeypatch, precision):
     """A5 with an offset of 1e7 sizes, which float64 holds and rebasing takes away."""
     lost, segments = escapes(star(), monkeypatch, precision, offset=(1e7, -2e7, 1e7), depth=50)
-    assert segments > 0.45e6
-    assert lost <= 4
+    assert segments > chance.times(0.45e6)
+    assert lost <= (4 if segments < 2e6 else 12)
 
 
 @pytest.mark.parametrize("precision", TREES)
@@ -125,6 +127,7 @@ CASES = {
 
 @pytest.mark.parametrize("precision", TREES)
 @pytest.mark.parametrize("name", CASES)
+@chance.fresh
 def test_the_lamp_does_not_stand_in_its_own_light(monkeypatch, name, precision):
     """A9: 0 of about 1e5 shadow rays to points on an emissive square are occluded, at each place and scale, down to 1e-5 of grazing."""
     settings = h.settings(width=128, height=128, samples=9, max_depth=0, precision=precision)

@@ -8,7 +8,7 @@ import pytest
 from glanz.engine import AreaLight, Dielectric, Material, Mirror, PerspectiveCamera, PointLight, SpotLight, SunLight
 from glanz.engine.constants import EPS32
 from glanz.engine.world import interaction
-from glanz.tests import helpers as h
+from glanz.tests import chance, helpers as h
 from glanz.tests.polygons import polygon_irradiance
 
 SUN = math.radians(0.533)
@@ -56,6 +56,7 @@ def test_the_rim_catches_another_sun():
 
 
 @pytest.mark.parametrize("ratio", [1e-6, 1e-4, 0.99, 1 - 1e-6])
+@chance.fresh
 def test_an_emissive_sphere_far_away_and_all_but_touching(ratio):
     """E6 at its ends: the sum over the visible triangles of a sphere of 80, R / d from 1e-6 to where it all but touches; detects 2 %."""
     mesh = h.icosphere(1, ratio, (0, 0, 1))
@@ -71,6 +72,7 @@ def test_an_emissive_sphere_far_away_and_all_but_touching(ratio):
 
 
 @pytest.mark.parametrize("height", [1e-3, 1e-4, 1e-5, 1e-6])
+@chance.fresh
 def test_a_light_that_all_but_lies_on_its_receiver_is_the_whole_sky(height):
     """E10: pi L in the limit, to h^2; detects 0.3 %."""
     near = AreaLight(world_from_light=h.affine(np.eye(3), (0, 0, height)))

@@ -12,7 +12,7 @@ from glanz.engine.world import lamp_search, light_tree_choice
 from glanz.engine.world.light_choice import weigh
 from glanz.engine.world.light_tree_choice import ByTree
 from glanz.engine.world.lights import Lights
-from glanz.tests import helpers as h
+from glanz.tests import chance, helpers as h
 from glanz.tests.polygons import polygon_irradiance
 
 mixed = ByTree._mixed
@@ -48,6 +48,7 @@ def check_bulbs_at(point):
 
 
 @pytest.mark.parametrize("point", POINTS, ids=str)
+@chance.fresh
 def test_a_thousand_bulbs_give_the_sum_of_their_closed_forms(point):
     """E1 a thousand times; detects 2 %."""
     check_bulbs(point)
@@ -181,6 +182,7 @@ def check_sides(monkeypatch):
     assert h.mean_is(both[lit] / alone[lit], 1.0, floor=3e-3)
 
 
+@chance.fresh
 def test_rays_know_which_way_the_surface_faced_that_they_left(monkeypatch):
     """E14: weights sum to one also where the choice of a light depends on the side; detects 2 %."""
     plan = h.plan_of(gallery(40, h.lambert(0.5)), h.settings())

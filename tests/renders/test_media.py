@@ -24,7 +24,7 @@ from glanz.engine.wavefront import continuation, media
 from glanz.engine.world.interaction import START_ULPS
 from glanz.engine.world.media import Media
 from glanz.engine.world.touching import moved_apart
-from glanz.tests import helpers as h
+from glanz.tests import chance, helpers as h
 
 CLEAR = Dielectric(1.0)
 """A boundary that is there and does nothing: what is left of the light is Beer's law alone."""
@@ -119,6 +119,7 @@ def slab_glass():
 
 
 @pytest.mark.parametrize(("glow", "expected"), [(-3, 0.460984394), (12, 0.049219688)])
+@chance.fresh
 def test_a_slab_that_absorbs_half_passes_and_reflects_what_its_round_trips_add_up_to(glow, expected):
     """D10: T = (1 - R)^2 tau / (1 - R^2 tau^2), Rtot = R + (1 - R)^2 R tau^2 / (1 - R^2 tau^2); detects 0.6 % and 3 %."""
     lamp = h.thing(h.quad((0, 0, glow), (900, 0, 0), (0, 900, 0)), GLOW)
@@ -151,6 +152,7 @@ def test_the_way_to_lights_that_rays_run_into_is_absorbed():
 
 
 @pytest.mark.parametrize("integrator", ["path", "path_blind"])
+@chance.fresh
 def test_shadow_rays_are_absorbed(integrator):
     """A lamp, a matte floor and the camera in a body: the same light as in the vacuum, by exp of the way; detects 1 %."""
     lamp = h.thing(h.quad((0, 0, 3), (0.8, 0, 0), (0, -0.8, 0)), GLOW)
@@ -230,12 +232,14 @@ def layered(things, samples=512, world=1.0):
     ],
     ids=["gem in glass", "bubble in glass", "glass over water", "water over glass", "glass in glass", "weaker inside"],
 )
+@chance.fresh
 def test_layers_pass_what_their_boundaries_add_up_to(things, indices):
     """D9 for any number of layers: (1 - T) / T = sum of R / (1 - R); detects 0.6 %."""
     assert h.mean_is(layered([*things, FLOOR]), incoherent(*indices), floor=1e-5)
 
 
 @pytest.mark.parametrize("glass", [-1, 0, 1])
+@chance.fresh
 def test_bodies_that_touch_pass_what_their_boundaries_add_up_to(glass):
     """Water that fits its glass, lid and floor: faces that coincide are one boundary, whichever of the two a ray meets."""
     water = body(1, 2, lobe=Dielectric(1.33), name="water")

@@ -5,7 +5,7 @@ import pytest
 
 from glanz.engine import Dielectric, Material, Medium, PerspectiveCamera, rendering
 from glanz.engine.wavefront import media
-from glanz.tests import helpers as h
+from glanz.tests import chance, helpers as h
 
 OUTSIDE = PerspectiveCamera.look_at((0.1, -4, 0.3), (0, 0, 0), fov=0.5)
 
@@ -40,14 +40,19 @@ def even_light(seed, camera, expected, **settings):
 
 
 @pytest.mark.parametrize("seed", range(6))
+@chance.fresh
 def test_any_heap_of_bodies_is_as_bright_as_what_surrounds_it(seed):
-    """D18 with media in media; detects 1.5 %."""
-    assert even_light(seed, OUTSIDE, 1.0)
+    """D18 with media in media; detects 1.5 %. What comes from outside leaves again, whatever the boxes."""
+    assert even_light(chance.seeded(seed), OUTSIDE, 1.0)
 
 
 @pytest.mark.parametrize("seed", range(6))
+@chance.fresh
 def test_from_inside_of_a_medium_the_same_light_is_brighter_by_its_index_squared(seed):
-    """Wherever the camera is in the heap: it has to know its medium, and paths have to come out of all of them."""
+    """Wherever the camera is in the heap: it has to know its medium, and paths have to come out of all of them.
+
+    These heaps and views are chosen: of an index above the root of 2 a box keeps some of the directions in it for ever.
+    """
     eye = np.random.default_rng(seed + 100).uniform(-0.4, 0.4, 3)
     camera = PerspectiveCamera.look_at(eye, eye + np.array((0.3, 1.0, 0.2)), fov=1.5)
     assert even_light(seed, camera, index_at(eye, heap(seed)[1]) ** 2)

@@ -10,7 +10,7 @@ from glanz.engine.arrays import Columns
 from glanz.engine.maths.poses import Keys
 from glanz.engine.wavefront import motion
 from glanz.engine.world.poses import Poses
-from glanz.tests import helpers as h, scenes
+from glanz.tests import chance, helpers as h, scenes
 from glanz.tests.moving import GLOW, from_above, is_share, moving, shifted, trapezoid, turned
 
 # G5: a bar
@@ -42,6 +42,7 @@ def test_a_moving_bar_is_a_trapezoid(travel):
         assert np.count_nonzero(row) * width == pytest.approx(4, abs=3 * width)
 
 
+@chance.fresh
 def test_a_bar_at_a_million_widths_per_shutter_keeps_its_mean():
     """G5, speed 1e6: seen through a window of width 1, it is there one millionth of the time; detects 1 %."""
     travel = 1e6
@@ -178,6 +179,7 @@ def test_the_shade_catches_shadow_rays_with_a_time_of_their_own(monkeypatch):
     assert lit_while_there() > 0.1
 
 
+@chance.fresh
 def test_scattered_rays_have_the_time_of_their_path():
     """A camera in a closed box that moves fast: paths stay in it, bounce by bounce, and none sees the world."""
     keys = shifted((-40, 3, 1), (40, -2, 5))

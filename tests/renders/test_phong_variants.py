@@ -7,7 +7,7 @@ import pytest
 
 from glanz.engine import AreaLight, BlinnPhong, Lambert, Material, Phong, PhongLecture, PointLight
 from glanz.engine.bsdfs import blinn_phong
-from glanz.tests import helpers as h
+from glanz.tests import chance, helpers as h
 from glanz.tests.renders.test_two_ways import image_of
 
 LECTURE = Material(name="lecture", lobes=(PhongLecture((0.9,) * 3, 10.0),))
@@ -31,12 +31,14 @@ def in_white_light(material, degrees):
 
 
 @pytest.mark.parametrize("degrees", [0, 45, 80])
+@chance.fresh
 def test_blinn_phong_shows_its_albedo_in_white_light(degrees):
     """F2; detects 0.5 %."""
     assert h.mean_is(in_white_light(BLINN, degrees), blinn_albedo(math.radians(degrees), 40.0), floor=1e-4)
 
 
 @pytest.mark.parametrize(("degrees", "n"), [(0, 10.0), (60, 0.0)])
+@chance.fresh
 def test_the_lectures_lobe_shows_its_albedo_in_white_light(degrees, n):
     """k_s (n + 2) / (n + 1) of the lobe above the horizon: all of it at 0 degrees, 2 / 3 of the half space at 60."""
     k_s = (n + 1) / (n + 2)
@@ -51,6 +53,7 @@ def test_the_albedo_catches_the_factor_of_another_lobe(monkeypatch):
 
 @pytest.mark.parametrize("material", [LECTURE, BLINN, ALL_THREE], ids=lambda m: m.name)
 @pytest.mark.parametrize("name", ["area", "ball", "mesh"])
+@chance.fresh
 def test_every_way_finds_the_same_light(monkeypatch, name, material):
     """E14: shadow rays, scattered rays, both; Welch's t over 144 pixels, detects 3 %."""
     lights, objects = {

@@ -7,7 +7,7 @@ import pytest
 
 from glanz.engine import SAMPLERS, PerspectiveCamera, PointLight
 from glanz.engine.wavefront import continuation, emission
-from glanz.tests import helpers as h
+from glanz.tests import chance, helpers as h
 
 INSIDE = PerspectiveCamera.look_at((0.3, 0.4, 0.5), (0.9, 0.8, 0.2), fov=math.radians(80))
 
@@ -40,7 +40,8 @@ def lengths(monkeypatch, r, faint=1.0):
     monkeypatch.setattr(continuation, "ROULETTE_DEPTH", 0)
     monkeypatch.setattr(continuation, "FAINT", faint)
     scene = h.scene([h.thing(h.box(), h.lambert(r, "wall", 1.0))], camera=INSIDE)
-    plan = h.plan_of(scene, h.settings(width=128, height=128, samples=1, max_depth=1000, sampler="random"))
+    side = math.isqrt(chance.times(128 * 128))
+    plan = h.plan_of(scene, h.replaced(h.settings(width=side, height=side, max_depth=1000, sampler="random"), samples=1))
     return h.pixels_of_plan(h.replaced(plan, on_surface=()))[0].ravel().astype(np.float64)
 
 
@@ -51,6 +52,7 @@ def is_analog(found, r):
 
 
 @pytest.mark.parametrize("r", [0.1, 0.5, 0.9])
+@chance.fresh
 def test_roulette_that_leaves_every_path_its_full_weight_is_a_geometric_series(monkeypatch, r):
     """F7: a whole number for each path, with the mean and the variance of analog absorption; detects 8 and 30 % of them."""
     found = lengths(monkeypatch, r)

@@ -6,7 +6,7 @@ import pytest
 from glanz.engine import Dielectric, Lambert, Material, Mirror, PerspectiveCamera, render_image
 from glanz.engine.bsdfs import dielectric
 from glanz.engine.wavefront import continuation
-from glanz.tests import helpers as h
+from glanz.tests import chance, helpers as h
 
 CAMERA = PerspectiveCamera.look_at((0.1, -4, 0.3), (0, 0, 0), fov=0.6)
 
@@ -28,6 +28,7 @@ def test_what_loses_nothing_cannot_be_seen_in_even_light(lobes, smooth):
 
 @pytest.mark.parametrize("smooth", [False, True])
 @pytest.mark.parametrize("ior", [1 / 1.5, 1.5, 2.42])
+@chance.fresh
 def test_glass_is_as_bright_as_what_surrounds_it(ior, smooth):
     """D18: radiance is scaled by eta^2 on the way in and back on the way out; detects 0.5 %, as some paths are inside for 200 bounces."""
     image = seen((Dielectric(ior),), smooth)
@@ -56,6 +57,7 @@ def test_glass_of_extreme_indices_is_as_bright_as_what_surrounds_it(ior, floor):
     assert h.mean_is(image.mean(axis=2).reshape(-1), 1.0, floor)
 
 
+@chance.fresh
 def test_lobes_of_every_kind_share_the_light():
     mixed = (Lambert((0.5,) * 3), Mirror((0.25,) * 3), Dielectric(1.5, (0.25,) * 3, (0.25,) * 3))
     # Shading normals keep some paths inside for all of the 200 bounces.
@@ -74,6 +76,7 @@ def test_the_furnace_catches_radiance_that_is_not_scaled_on_one_side(monkeypatch
 
 
 @pytest.mark.parametrize(("depth", "expected"), [(1, 0.9216), (3, 0.92307456), (50, 12 / 13)])
+@chance.fresh
 def test_a_slab_of_glass_passes_what_its_round_trips_add_up_to(depth, expected):
     """D9: T = (1 - R)^2 (1 + R^2 + ...), in the limit 2 n / (n^2 + 1); detects 0.4 %."""
     slab = h.thing(h.box((-50, -50, 0), (50, 50, 1)), Material(name="slab", lobes=(Dielectric(1.5),)))
@@ -84,6 +87,7 @@ def test_a_slab_of_glass_passes_what_its_round_trips_add_up_to(depth, expected):
     assert h.mean_is(image.reshape(-1), expected, floor=1e-6)
 
 
+@chance.fresh
 def test_a_slab_at_45_degrees_passes_the_mean_of_both_polarisations():
     """D11: (1 - R) / (1 + R) with R = .050239911, .904326791: light is unpolarised at every boundary; detects 0.5 %."""
     slab = h.thing(h.box((-50, -50, 0), (50, 50, 1)), Material(name="slab", lobes=(Dielectric(1.5),)))

@@ -25,7 +25,7 @@ from glanz.engine.plan import Plan
 from glanz.engine.wavefront import cones
 from glanz.engine.world import attributes
 from glanz.engine.world.texturing import TexturedGlow
-from glanz.tests import helpers as h, textured as t
+from glanz.tests import chance, helpers as h, textured as t
 from glanz.tests.moving import moving, turned
 
 SMALL = h.settings(width=24, height=16, samples=4, max_depth=3, threads=2)
@@ -131,6 +131,7 @@ def test_materials_take_turns_on_one_mesh():
     assert (image[:, u < v - 0.1] == 0.25).all()
 
 
+@chance.fresh
 def test_light_from_a_textured_emitter_is_found_both_ways():
     """Shadow rays that know the texture, and rays that run into it: one mean; detects 3 %."""
     lamp = h.thing(

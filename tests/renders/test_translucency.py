@@ -25,7 +25,7 @@ from glanz.engine.wavefront import direct
 from glanz.engine.wavefront.direct import shadow_rays_in_front, shadow_rays_on_either_side
 from glanz.engine.world.accel import Accel
 from glanz.engine.world.materials import Reflection, TwoSided
-from glanz.tests import helpers as h, textured
+from glanz.tests import chance, helpers as h, textured
 from glanz.tests.renders.test_two_ways import image_of
 
 PAPER = Material(name="paper", lobes=(LambertTransmission((0.9, 0.6, 0.3)),))
@@ -101,6 +101,7 @@ def test_what_stands_behind_the_sheet_throws_a_shadow_on_it(side):
 
 @pytest.mark.parametrize("material", [WHITE_PAPER, FILM, LEAF, SATIN], ids=lambda m: m.name)
 @pytest.mark.parametrize("name", ["lamp", "panel", "bulb"])
+@chance.fresh
 def test_every_way_finds_the_light_behind(monkeypatch, material, name):
     """E14 through a sheet: shadow rays, scattered rays, both; Welch's t over 144 pixels, detects 3 %."""
     lights, objects = {
@@ -127,6 +128,7 @@ def test_every_integrator_sees_the_same_through_a_sheet(integrator, material):
 
 
 @pytest.mark.parametrize("material", [WHITE_PAPER, Material(name="leaf", lobes=(Lambert((0.5,) * 3), LambertTransmission((0.5,) * 3)))])
+@chance.fresh
 def test_a_white_sheet_vanishes_in_white_light(material):
     """F2: in radiance 1 from everywhere all that is reflected and passed adds up to 1, also through a closed box."""
     for mesh in (h.quad(), h.box((-1, -1, -1))):

@@ -21,7 +21,7 @@ from glanz.engine import (
 )
 from glanz.engine.integrators.path import Path
 from glanz.engine.wavefront import passing
-from glanz.tests import helpers as h
+from glanz.tests import chance, helpers as h
 
 TINT = np.array((0.9, 0.5, 0.25))
 SQUARE = 0.752274688
@@ -181,6 +181,7 @@ def furnace(lobes, world=1.0, **changes):
 
 
 @pytest.mark.parametrize("sampler", ["stratified", "sobol", "blue_noise"])
+@chance.fresh
 def test_what_loses_nothing_is_as_bright_as_what_surrounds_it(sampler):
     """Whichever share of each channel passes and whichever is reflected; detects 0.5 %."""
     passing_share = np.array((0.5, 0.9, 0.1))

@@ -7,7 +7,7 @@ import pytest
 
 from glanz.engine import AreaLight, Material, Mirror, PerspectiveCamera, Phong
 from glanz.engine.wavefront import direct, emission, escape, mis
-from glanz.tests import helpers as h
+from glanz.tests import chance, helpers as h
 
 WIDTH, HEIGHT, EDGE = 0.2, 3.0, 1.0
 """Of a strip light [m], its height, and that of the edge below it: E9 of the catalogue."""
@@ -87,6 +87,7 @@ def tiles(monkeypatch, weight, exponent, samples=32):
 
 
 @pytest.mark.parametrize("exponent", EXPONENTS)
+@chance.fresh
 def test_lights_are_found_alike_by_shadow_rays_scattered_rays_and_both(monkeypatch, exponent):
     """E14: equal means on tiles of 16 x 16; where one way is hopeless (a sharp lobe, a small lamp) it is left out."""
     both = tiles(monkeypatch, None, exponent)

@@ -8,7 +8,7 @@ import pytest
 from glanz.engine import AreaLight, Material, Phong, PointLight, SpotLight, SunLight, Transparent
 from glanz.engine.wavefront import direct, emission, escape, mis
 from glanz.engine.wavefront.mis import power_heuristic
-from glanz.tests import helpers as h
+from glanz.tests import chance, helpers as h
 from glanz.tests.polygons import polygon_irradiance
 
 WHITE = h.lambert(1.0)
@@ -46,6 +46,7 @@ def image_of(monkeypatch, way, scene, seed, depth=0, samples=100):
 
 @pytest.mark.parametrize("material", [WHITE, GLOSSY, MIXED], ids=lambda m: m.name)
 @pytest.mark.parametrize("name", LIGHTS)
+@chance.fresh
 def test_every_way_finds_the_same_light(monkeypatch, name, material):
     """Welch's t over 144 pixels; detects 1 to 3 %. Each picture has numbers of its own."""
     lights, objects = LIGHTS[name]
@@ -57,6 +58,7 @@ def test_every_way_finds_the_same_light(monkeypatch, name, material):
 
 
 @pytest.mark.parametrize("name", LIGHTS)
+@chance.fresh
 def test_every_way_finds_the_same_light_behind_a_half_transparent_sheet(monkeypatch, name):
     """By chance for scattered rays, by its share for shadow rays; the sheet reflects as well, which both ways know."""
     lights, objects = LIGHTS[name]
@@ -77,6 +79,7 @@ def test_the_same_light_is_the_one_of_the_closed_form(monkeypatch):
         assert h.mean_is(image, truth, floor=1e-5), way
 
 
+@chance.fresh
 def test_ways_agree_over_many_bounces(monkeypatch):
     """In a box with a lamp in it, up to four bounces; detects 2 %."""
     objects = [h.thing(h.box(), h.lambert(0.6)), h.thing(h.quad((0.5, 0.5, 0.9), (0.5, 0, 0), (0, 0.5, 0)), h.lambert(0, "lamp", 1.0))]

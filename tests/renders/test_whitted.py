@@ -7,7 +7,7 @@ import pytest
 
 from glanz.engine import AreaLight, Dielectric, Lambert, Material, Mirror, PerspectiveCamera, Phong, PointLight, SpotLight, SunLight
 from glanz.engine.wavefront import branching, hard_light
-from glanz.tests import helpers as h
+from glanz.tests import chance, helpers as h
 
 GLASS = Material(name="glass", lobes=(Dielectric(1.5),))
 LAMP = Material(name="lamp", emission=(1.0, 1.0, 1.0))
@@ -211,6 +211,7 @@ def test_illumination_catches_another_exponent(monkeypatch):
 # Against path tracing
 
 
+@chance.fresh
 def test_mirrors_and_glass_look_as_path_tracing_finds_them():
     """F10: full branching is the expectation of following one branch; detects 3 % at single points of a glass ball."""
     ball = h.thing(h.icosphere(3, 1.0, smooth=True), GLASS)

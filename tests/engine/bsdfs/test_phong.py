@@ -12,7 +12,7 @@ from glanz.engine.maths.vectors import dot, reflect
 from glanz.engine.registry import BSDFS
 from glanz.engine.scene.values import Material
 from glanz.engine.world.materials import Materials, Reflection
-from glanz.tests import helpers as h
+from glanz.tests import chance, helpers as h
 
 Z = h.unit(0, 0, 1)
 N = 1_000_000
@@ -64,12 +64,14 @@ def test_exponent_zero_is_cut_off_at_a_right_angle_from_the_mirror():
 
 
 @pytest.mark.parametrize("n", [0.0, 0.5, 1.0, 10.0, 1e3, 1e6])
+@chance.fresh
 def test_the_weight_of_a_sample_has_a_closed_form_and_a_bound(n):
     """C8: k_s (n + 2) / (n + 1) cos(theta), at most 2: no fireflies. Its mean is the albedo, lost samples counted."""
     k = h.table(Phong((0.9, 0.5, 0.1), n).row())
     for angle in (0.0, np.radians(45), np.radians(80)):
         wo = h.at_angle(angle)
-        wi = Phong.sample(k, np.repeat(Z, N // 4, 1), wo, h.uniform(3, N // 4))
+        n_samples = chance.times(N // 4)
+        wi = Phong.sample(k, np.repeat(Z, n_samples, 1), wo, h.uniform(3, n_samples))
         cos = np.maximum(dot(Z, wi), 0)
         weight = Phong.eval(k, Z, wo, wi)[1] * cos / Phong.pdf(k, Z, wo, wi)
         np.testing.assert_allclose(weight, 0.5 * (n + 2) / (n + 1) * cos, rtol=1e-9)
@@ -132,12 +134,13 @@ def reflection(*lobes):
 
 
 @pytest.mark.parametrize(("kd", "ks"), [(0.3, 0.6), (0.0, 0.9), (0.9, 0.0), (0.0, 0.0), (1e-30, 0.5)], ids=lambda x: f"{x:g}")
+@chance.fresh
 def test_a_mixture_weighs_and_samples_its_lobes_by_their_shares(kd, ks):
     """C10: the mean weight is the sum of the albedos, also with one of the lobes, or both, black; detects 0.5 %."""
     n, exponent, angle = 200_000, 10.0, np.radians(45)
     mixed = reflection(Lambert((kd,) * 3), Phong((ks,) * 3, exponent))
     normal, wo = np.repeat(Z, n, 1).astype(np.float32), np.repeat(h.at_angle(angle, dtype=np.float32), n, 1)
-    u = np.random.default_rng(4).random((3, n), np.float32)
+    u = np.random.default_rng(chance.seeded(4)).random((3, n), np.float32)
     wi, weight, pdf = mixed.scatter(SimpleNamespace(n=normal, ns=normal, wo=wo), u[0], u[1:])
     assert (pdf > 0).all()
     assert np.isfinite(weight).all()

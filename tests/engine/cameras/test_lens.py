@@ -8,7 +8,7 @@ import pytest
 
 from glanz.engine import Lens, PerspectiveCamera
 from glanz.engine.wavefront.camera_rays import round_aperture, through_the_lens
-from glanz.tests import helpers as h
+from glanz.tests import chance, helpers as h
 
 FOCAL_LENGTH, STOP, FOCUS, OBJECT = 0.05, 2.0, 2.0, 4.0
 """50 mm at f/2, focused at 2 m; a point at 4 m."""
@@ -44,6 +44,7 @@ def check_circle(lens_rays=PerspectiveCamera.lens_rays, aperture=APERTURE):
     assert h.chi2_p(counts, np.full(256, x.size / 256)) > h.ALPHA
 
 
+@chance.fresh
 def test_the_circle_of_confusion_has_its_closed_form():
     """G2."""
     assert abs(CIRCLE / 0.320513e-3 - 1) < 1e-5
@@ -51,6 +52,7 @@ def test_the_circle_of_confusion_has_its_closed_form():
 
 
 @pytest.mark.parametrize("aperture", [1e-6, 1e-3, 1.0])
+@chance.fresh
 def test_the_circle_grows_with_the_aperture(aperture):
     """G2 from a thousandth of a millimetre to a metre; none at 0, see the contracts of cameras."""
     check_circle(aperture=aperture)

@@ -8,7 +8,7 @@ import pytest
 from glanz.engine import AreaLight, SceneError
 from glanz.engine.lights import area as module
 from glanz.engine.maths.vectors import dot
-from glanz.tests import helpers as h
+from glanz.tests import chance, helpers as h
 from glanz.tests.polygons import polygon_irradiance
 
 SQUARE = 0.752274688
@@ -18,7 +18,7 @@ OVERHEAD = h.affine(np.eye(3), (0, 0, 1))
 
 def irradiances(light, normal=(0, 0, 1), p=(0, 0, 0), u2=None):
     """E cos [W m^-2] of each sample."""
-    u2 = h.uniform(1, 100_000) if u2 is None else u2
+    u2 = h.uniform(1, chance.times(100_000)) if u2 is None else u2
     wi, _, E, _ = light.sample(h.table(light.row(h.UNIT_FRAME)), np.repeat(np.array(p, float)[:, None], u2.shape[1], 1), u2)
     return E[0] * np.maximum(dot(h.unit(*normal), wi), 0)
 
@@ -33,6 +33,7 @@ def test_the_formula_for_polygons_gives_the_known_square():
     assert 4 * factor * math.pi == pytest.approx(SQUARE, abs=1e-9)
 
 
+@chance.fresh
 def test_a_unit_square_gives_the_sum_of_four_corners():
     """E4; detects 0.1 % with 1e5 samples."""
     assert h.mean_is(irradiances(AreaLight(world_from_light=OVERHEAD)), SQUARE)
@@ -48,6 +49,7 @@ def test_the_square_catches_a_light_without_its_cosine_and_twice_the_light(monke
 
 @pytest.mark.parametrize("scale", [1e-6, 1e6])
 @pytest.mark.parametrize("radiance", [1e-30, 1e30])
+@chance.fresh
 def test_a_unit_square_at_the_extremes(scale, radiance):
     """Irradiance does not depend on the scale of the scene, and is proportional to the radiance."""
     light = AreaLight(world_from_light=h.affine(scale * np.eye(3), (0, 0, scale)), radiance=(radiance,) * 3)
@@ -82,23 +84,25 @@ def emitted_irradiances(world, p, normal, n=20_000, seed=1):
 
 
 @pytest.mark.parametrize("first", range(0, 50, 10))
+@chance.fresh
 def test_emissive_polygons_give_the_sum_over_their_edges(first):
     """E5: 50 random polygons and receivers, clipped at the horizon, 2e4 samples each; detects 2 % of one of them.
 
     Where only a corner of the polygon is above the horizon samples are too rare to judge: 1e-6 W m^-2 is forgiven.
     """
     for seed in range(first, first + 10):
-        corners, p, normal = random_polygon(seed)
+        corners, p, normal = random_polygon(chance.seeded(seed))
         truth = polygon_irradiance(corners, p, normal)
         values = emitted_irradiances(polygon_world(corners), p, normal)
         assert h.mean_is(values, truth, floor=1e-5, absolute=1e-6), seed
 
 
 @pytest.mark.parametrize("first", range(0, 50, 25))
+@chance.fresh
 def test_area_lights_give_the_sum_over_their_edges_on_the_side_they_face(first):
     """E5 for random rectangles, parallelograms included: one-sided."""
     for seed in range(first, first + 25):
-        rng = np.random.default_rng(1000 + seed)
+        rng = np.random.default_rng(chance.seeded(1000 + seed))
         frame = h.rotation(seed) @ np.array([[1, 0.3, 0], [0, 1, 0], [0, 0, 1.0]])
         centre, p, normal = rng.standard_normal(3) * 1.5, rng.standard_normal(3) * 0.2, rng.standard_normal(3)
         light = AreaLight(world_from_light=h.affine(frame, centre), size_x=0.5 + rng.random(), size_y=0.5 + rng.random())
@@ -106,7 +110,7 @@ def test_area_lights_give_the_sum_over_their_edges_on_the_side_they_face(first):
         corners = [centre + sx * x + sy * y for sx, sy in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
         faces = (p - centre) @ np.cross(x, y) < 0
         truth = polygon_irradiance(corners, p, normal / np.linalg.norm(normal)) if faces else 0.0
-        assert h.mean_is(irradiances(light, normal, p, h.uniform(seed, 20_000)), truth, absolute=1e-6), seed
+        assert h.mean_is(irradiances(light, normal, p, h.uniform(seed, chance.times(20_000))), truth, absolute=1e-6), seed
 
 
 def test_the_polygon_formula_catches_one_percent_and_a_light_sampled_in_part(monkeypatch):

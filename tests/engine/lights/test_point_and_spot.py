@@ -9,7 +9,7 @@ from glanz.engine import PointLight, SceneError, SpotLight
 from glanz.engine.lights import spot
 from glanz.engine.lights.spot import falloff
 from glanz.engine.maths.vectors import dot
-from glanz.tests import helpers as h
+from glanz.tests import chance, helpers as h
 
 ORIGIN = np.zeros((3, 1))
 
@@ -103,6 +103,7 @@ def test_the_formula_catches_a_spot_that_fades_linearly(monkeypatch):
     assert irradiance(light, towards, p=p)[0] != pytest.approx(truth, rel=1e-2)
 
 
+@chance.fresh
 def test_the_flux_through_a_hard_cone_is_its_solid_angle_times_the_intensity():
     """2 pi (1 - cos(22.5 degrees)) = 0.478279 for I = 1, by counting directions; detects a cone of 46 degrees."""
     light = SpotLight(angle=math.radians(45), blend=0.0)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from glanz.engine.maths import discrete
-from glanz.tests import helpers as h
+from glanz.tests import chance, helpers as h
 
 WEIGHTS = {
     "few": [1.0, 2.0, 0.0, 4.0],
@@ -19,7 +19,8 @@ WEIGHTS = {
 
 def check_choice(cdf, weights, choose=discrete.choose, n=200_000):
     weights = np.asarray(weights, float)
-    u = np.random.default_rng(2).random(n, np.float32)
+    n = chance.times(n)
+    u = np.random.default_rng(chance.seeded(2)).random(n, np.float32)
     counts = np.bincount(choose(cdf, u), minlength=weights.size)
     assert counts.size == weights.size
     assert (counts[weights == 0] == 0).all()
@@ -27,6 +28,7 @@ def check_choice(cdf, weights, choose=discrete.choose, n=200_000):
 
 
 @pytest.mark.parametrize("name", WEIGHTS)
+@chance.fresh
 def test_choices_come_in_proportion(name):
     """chi2 of 2e5 choices; detects 1.5 % of a weight of one half."""
     check_choice(discrete.cumulative(WEIGHTS[name]), WEIGHTS[name])

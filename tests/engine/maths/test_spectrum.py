@@ -6,7 +6,7 @@ import pytest
 from glanz.engine import Dielectric, SceneError
 from glanz.engine.maths import spectrum
 from glanz.engine.maths.spectrum import CHANNELS, LINE_C, LINE_D, LINE_F, place, sample_wavelength
-from glanz.tests import helpers as h
+from glanz.tests import chance, helpers as h
 
 BK7 = Dielectric(1.5168, abbe=64.167)
 
@@ -36,6 +36,7 @@ def test_the_mean_catches_weights_of_another_distribution(monkeypatch):
     assert not white_is_white()
 
 
+@chance.fresh
 def test_wavelengths_come_as_often_as_they_weigh():
     """B2: each of the sixty bins, and evenly within them; weights are never negative and add up to 3."""
     wavelength, weight = sample_wavelength(h.uniform(5, 200_000)[0])

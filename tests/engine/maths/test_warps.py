@@ -8,7 +8,7 @@ from scipy import stats
 
 from glanz.engine.lights.point import PointLight
 from glanz.engine.maths import warps
-from glanz.tests import helpers as h
+from glanz.tests import chance, helpers as h
 
 EXPONENTS = (0.0, 0.5, 1.0, 10.0, 1e3, 1e6)
 U = np.concatenate(([0.0, 2.0**-53, 1 - 2.0**-53], np.linspace(0.001, 0.999, 500)))
@@ -167,6 +167,7 @@ def test_the_stretch_catches_a_warp_of_another_density(name, warp):
         check_density_is_one_over_the_stretch(warp, DENSITIES[name][1])
 
 
+@chance.fresh
 def test_moments_of_the_warps():
     """B5, with 1e6 samples: detects 0.3 % of any of them."""
     u2 = h.uniform(11, N)
@@ -197,6 +198,7 @@ def check_triangle(warp):
     assert h.chi2_p(counts, np.full(1024, u.size / 1024)) > h.ALPHA
 
 
+@chance.fresh
 def test_points_on_a_triangle_are_uniform():
     """chi2 in 32 x 32 bins: detects 7 % of the density in half of the bins."""
     check_triangle(warps.square_to_triangle)
@@ -232,6 +234,7 @@ def check_polygon(warp, corners, rotation):
 
 
 @pytest.mark.parametrize(("corners", "rotation"), [(3, 0.0), (3, 0.4), (4, np.pi / 4), (5, -1.0), (7, 6.0), (16, 0.1)])
+@chance.fresh
 def test_points_on_a_polygon_are_uniform(corners, rotation):
     """chi2 in 16 x 16 bins: detects 7 % of the density in half of the bins, and any point outside."""
     check_polygon(warps.square_to_polygon, corners, rotation)

@@ -11,7 +11,7 @@ from glanz.engine.maths import interpolation
 from glanz.engine.maths.texels import Texels
 from glanz.engine.world import environment as module
 from glanz.engine.world.environment import Environment
-from glanz.tests import helpers as h
+from glanz.tests import chance, helpers as h
 
 N = 400_000
 
@@ -84,6 +84,7 @@ def check_samples_follow_the_picture(way):
 
 
 @pytest.mark.parametrize("way", WAYS)
+@chance.fresh
 def test_samples_follow_the_picture_times_the_solid_angle(way):
     """Detects 4 % in half of the bins, and a picture that is shifted by a tenth of a pixel."""
     check_samples_follow_the_picture(way)
@@ -141,6 +142,7 @@ def test_the_density_is_told_alike_by_sample_and_hit_and_integrates_to_one(name,
 
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize("name", PICTURES)
+@chance.fresh
 def test_the_mean_of_samples_is_the_light_of_the_whole_sky(name, way):
     """The integral of L over the sphere, by E = L / pdf and by quadrature; detects 1 %. Samples are bounded."""
     sky = environment(name, way)

@@ -10,7 +10,7 @@ from glanz.engine.arrays import Columns
 from glanz.engine.world import light_tree_choice
 from glanz.engine.world.light_choice import ByPlace, ByPower, OnlyLight
 from glanz.engine.world.light_tree_choice import ByTree
-from glanz.tests import helpers as h
+from glanz.tests import chance, helpers as h
 
 
 def bulbs(count, power=lambda i: 1.0 + i):
@@ -63,7 +63,7 @@ def check_choice(name, normal=None):
     lights, objects, kind = CHOICES[name]
     world, choice, count = choice_of(lights, objects)
     assert isinstance(choice, kind)
-    n = 100_000
+    n = chance.times(100_000)
     for seed, place in enumerate(PLACES):
         p = np.repeat(world.frame.points(np.array(place)[:, None]).astype(np.float32), n, 1)
         facing = None if normal is None else np.repeat(normal, n, 1)
@@ -84,12 +84,14 @@ def check_choice(name, normal=None):
 
 
 @pytest.mark.parametrize("name", CHOICES)
+@chance.fresh
 def test_lights_are_chosen_with_the_probability_that_is_told(name):
     """B9: chi2 of 1e5 choices at each of 4 points; detects 4 % of a light with a tenth of the probability. Told bit for bit."""
     check_choice(name)
 
 
 @pytest.mark.parametrize("name", [name for name, (_, _, kind) in CHOICES.items() if kind is ByTree])
+@chance.fresh
 def test_lights_are_chosen_for_surfaces_that_face_one_side(name):
     """B9 once more; lights below the horizon weigh little, but something."""
     check_choice(name, h.unit(0.3, -0.5, 0.6, dtype=np.float32))
