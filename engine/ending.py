@@ -19,12 +19,14 @@ class Reached:
     error     that of the picture, see `measured.picture_error`; infinite where unknown
     ended_by  "samples", "error" or "time": what ended it; "" where it goes on, or was cancelled
     clamped   the share of the light that clamping has taken away so far
+    scatter   by what share the error that the picture really has may differ from `error`, see `measured.scatter`
     """
 
     samples: int
     error: float = math.inf
     ended_by: str = ""
     clamped: float = 0.0
+    scatter: float = 0.0
 
     def facts(self):
         """What a file should say of it, {str: str}; the error is a number, 0.01 is 1 %."""
@@ -35,6 +37,10 @@ class Reached:
 
 NOT_BEGUN = Reached(0)
 """Nothing yet."""
+MISSED, LUCK = 1.05, 2.5
+"""The error that a picture really has may be more than so many times the target by luck alone: by that of so many standard deviations."""
+LOWEST_AIM = 0.87
+"""Where luck decides more, not all of it is made up for: most pictures would be far better than was asked for."""
 SLOPES = (0.5, 1.0)
 """How fast errors fall is measured, but not believed to be slower than by chance, or faster than by even samples of what is smooth."""
 STEEPEST = 4.0
@@ -96,18 +102,19 @@ class Ending:
         """How many samples pixels have on average, rounded down, by what is `Found` of all."""
         return self._begin + int(sum(part.samples.sum() for part in found)) // sum(part.samples.size for part in found)
 
-    def ended_by(self, samples, error):
-        """What ends a frame with so many `samples` and such an `error`; "" for nothing."""
+    def ended_by(self, samples, error, scatter=0.0):
+        """What ends a frame with so many `samples` and such an `error`, which luck may have off by `scatter`; "" for nothing."""
         if samples >= self._end:
             return "samples"
-        if self._target and error <= self._target:
+        if self._target and error <= self._aim(scatter):
             return "error"
         return "time" if self.is_late() and samples > self._begin else ""
 
-    def following(self, samples, error):
+    def following(self, samples, error, scatter=0.0):
         """The number of samples at the end of the round that begins at `samples`, with an `error`: learns how fast that falls."""
         self._look(samples - self._begin, error)
-        own = (self._end, *(end for end in self._ends if end > samples), *self._for_error(samples, error), *self._for_time(samples))
+        by_error = self._for_error(samples, error, scatter)
+        own = (self._end, *(end for end in self._ends if end > samples), *by_error, *self._for_time(samples))
         # What is saved has to be before any pixel gets more: rounds of tiles that end with them are saved tile by tile.
         paced = self._for_pace(samples) if samples > self._begin else ()
         return min((*own, *paced))
@@ -132,12 +139,12 @@ class Ending:
 
         The last `Reached` forecasts when the error will be small enough.
         """
-        needed = self._needed(reached.samples, reached.error) - self._begin if self._target else math.inf
+        needed = self._needed(reached.samples, reached.error, reached.scatter) - self._begin if self._target else math.inf
         by_error = done * (self._end - self._begin) / needed if needed else 1.0
         by_time = self._seconds() / self._limit if self._limit else 0.0
         return min(max(done, by_error, by_time), 1.0)
 
-    def _for_error(self, samples, error):
+    def _for_error(self, samples, error, scatter):
         if not self._target:
             return
         # The end of a replicate: the second one at first, then the last before the error is forecast to be small enough, which is as
@@ -146,10 +153,10 @@ class Ending:
         if not math.isfinite(error):
             yield int(ends[min(1, ends.size - 1)])
             return
-        needed, most = self._needed(samples, error), self._begin + 2 * (samples - self._begin)
+        needed, most = self._needed(samples, error, scatter), self._begin + 2 * (samples - self._begin)
         if samples >= self._spread_from:
             # Some pixels may get more while others do not, so it can be as near as is worth a look.
-            yield min(max(samples + int(0.4 * (needed - samples)), samples + samples // 100), most)
+            yield min(max(samples + int(0.25 * (needed - samples)), samples + samples // 100), most)
             return
         wanted = min(needed, most)
         yield int(ends[max(np.searchsorted(ends, wanted, side="right") - 1, 0)])
@@ -176,9 +183,15 @@ class Ending:
             self._slope = min(max(slope, SLOPES[0]), SLOPES[1] if samples + self._begin < self._spread_from else STEEPEST)
         self._looked = samples, error
 
-    def _needed(self, samples, error):
+    def _aim(self, scatter):
+        """The error that is to be reached: less than the target where luck may have the true one far above that."""
+        return self._target * min(max(MISSED / (1 + LUCK * scatter), LOWEST_AIM), 1.0)
+
+    def _needed(self, samples, error, scatter):
         # Nothing is known of an error that is infinite.
-        return self._begin + (samples - self._begin) * (error / self._target) ** (1 / self._slope) if math.isfinite(error) else math.inf
+        if not math.isfinite(error):
+            return math.inf
+        return self._begin + (samples - self._begin) * (error / self._aim(scatter)) ** (1 / self._slope)
 
     def _seconds(self):
         return time.monotonic() - self._started

@@ -44,6 +44,16 @@ def picture_error(found, measure):
     return math.sqrt(square) / unit if square and unit else math.inf if square else 0.0
 
 
+def scatter(found):
+    """By what share the RMSE that a picture really has differs from its `picture_error`: a standard deviation.
+
+    Errors of pixels are independent, and their squares vary by twice their own square each (those of normal errors, whose channels err
+    together): it falls with the root of the number of pixels that have most of the error.
+    """
+    square = sum(part.squares.sum() for part in found)
+    return math.sqrt(0.5 * sum(np.square(part.squares).sum() for part in found)) / square if 0 < square < math.inf else 0.0
+
+
 class Relative:
     """The error of radiance relative to the mean radiance of the picture: the relative RMSE of all pixels and channels."""
 

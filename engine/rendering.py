@@ -123,7 +123,7 @@ def render_plan(plan, ends=(), cancelled=None, checkpoint=NO_CHECKPOINT):
     with ThreadPoolExecutor(workers, thread_name_prefix="glanz") as pool:
         try:
             while not (reached.ended_by or work.is_stopped()):
-                samples = ending.following(reached.samples, reached.error)
+                samples = ending.following(reached.samples, reached.error, reached.scatter)
                 goals = {place: goal for place, goal in ending.goals(work.found, samples).items() if place not in work.done_with}
                 pending = {pool.submit(_work_on, plan, place, work, goal) for place, goal in goals.items()}
                 while pending:

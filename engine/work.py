@@ -8,7 +8,7 @@ import numpy as np
 
 from .ending import Reached
 from .errors import SceneError, SceneWarning
-from .measured import Found, picture_error
+from .measured import Found, picture_error, scatter
 from .saved import Saved
 
 
@@ -70,11 +70,12 @@ class Work:
     def reached(self, before, samples):
         """How far the frame is after a round from the samples `before` it to `samples`; not all pixels got there if it is late."""
         found = tuple(self.found.values())
-        error = math.inf if None in found else picture_error(found, self.measure)
+        is_known = None not in found
+        error, luck = (picture_error(found, self.measure), scatter(found)) if is_known else (math.inf, 0.0)
         if self.is_cut or self.is_stopped():
-            return Reached(before, error, "time" if self.is_cut else "", self.clamped)
-        mean = samples if None in found else self.ending.mean_samples(found)
-        return Reached(mean, error, self.ending.ended_by(mean, error), self.clamped)
+            return Reached(before, error, "time" if self.is_cut else "", self.clamped, luck)
+        mean = self.ending.mean_samples(found) if is_known else samples
+        return Reached(mean, error, self.ending.ended_by(mean, error, luck), self.clamped, luck)
 
     def saved(self, reached, has_tiles):
         """The `Saved` of a frame that is as far as `reached`: with what is begun, between rounds; else with finished tiles alone."""

@@ -5,6 +5,7 @@ import io
 import json
 import time
 import zipfile
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +19,7 @@ from .records import Encoder
 from .scene_file import DAMAGED, add_entry, check_entries
 
 FORMAT = "glanz checkpoint"
-VERSION = 2
+VERSION = 3
 HEAD = "checkpoint.json"
 SECONDS = 60.0
 """Between two of them: what a crash may cost."""
@@ -80,7 +81,8 @@ class Checkpoint:
         self._saved_at = time.monotonic()
         head = {"format": FORMAT, "version": VERSION, "identity": self._identity, "bad": saved.bad, "ending": saved.ending}
         head["light"] = saved.light
-        head["reached"] = [saved.reached.samples, repr(saved.reached.error), saved.reached.ended_by, saved.reached.clamped]
+        # JSON has no infinity.
+        head["reached"] = asdict(saved.reached) | {"error": repr(saved.reached.error)}
         with replacing(self._path) as temporary, zipfile.ZipFile(temporary, "w", zipfile.ZIP_STORED, allowZip64=True) as file:
             for kind in ("tiles", "finished"):
                 parts = getattr(saved, kind)
@@ -110,7 +112,7 @@ def identity(scene, settings):
 
 
 def _saved(head, read):
-    samples, error, *how = head["reached"]
+    reached = Reached(**head["reached"] | {"error": float(head["reached"]["error"])})
     parts = {
         kind: {
             tuple(place): {name: read(f"{kind}/{number}/{i}.npy") for i, name in enumerate(names)}
@@ -118,4 +120,4 @@ def _saved(head, read):
         }
         for kind in ("tiles", "finished")
     }
-    return Saved(Reached(samples, float(error), *how), head["ending"], head["bad"], tuple(head["light"]), **parts)
+    return Saved(reached, head["ending"], head["bad"], tuple(head["light"]), **parts)

@@ -8,7 +8,7 @@ import pytest
 
 from glanz.engine import SceneError, ending, render, render_image
 from glanz.engine.ending import Ending, Reached
-from glanz.engine.measured import Found, picture_error
+from glanz.engine.measured import Found, picture_error, scatter
 from glanz.engine.rendering import render_plan
 from glanz.tests import helpers as h, scenes
 
@@ -35,15 +35,48 @@ def relative_rmse(image, truth):
 @pytest.mark.parametrize("target", [0.1, 0.025])
 @pytest.mark.parametrize("sampler", ["sobol", "stratified", "random"])
 def test_an_error_that_was_asked_for_is_reached_and_not_by_much_more(target, sampler):
-    """Of a picture whose truth is known: 0.9 to 1.1 of the target is 3072 values, of which the RMSE is known to 2.2 %."""
+    """Of a picture whose truth is known, by 3072 values, of which the RMSE is known to 2.2 %; a third more samples may be all there are."""
     scene, truth = lamp()
     image = render_image(scene, h.settings(**SMALL, error_target=target, sampler=sampler))
     reached = float(image.metadata["glanz.reached.error"])
     samples = int(image.metadata["glanz.reached.samples"])
     assert image.metadata["glanz.reached.ended_by"] == "error"
     assert reached <= target
-    assert samples == 32 or reached >= 0.85 * target
+    assert samples <= 48 or reached >= 0.85 * target
     assert relative_rmse(image, truth) == pytest.approx(reached, rel=0.12)
+
+
+def check_luck():
+    """Of 24 pictures of 64 pixels, whose errors luck has off by a twelfth, at most 2 miss the target by a twentieth: 1 in 100 should."""
+    scene, truth = lamp()
+    changes = {"width": 8, "height": 8, "error_target": 0.05, "sampler": "random"}
+    pictures = [render_image(scene, h.settings(**SMALL | changes, seed=seed)) for seed in range(24)]
+    assert sum(relative_rmse(picture, truth) > 1.05 * 0.05 for picture in pictures) <= 2
+
+
+def test_the_error_that_was_asked_for_is_that_of_the_picture_not_of_many():
+    check_luck()
+
+
+def test_a_target_that_trusts_to_luck_is_noticed(monkeypatch):
+    monkeypatch.setattr(ending, "LUCK", 0.0)
+    monkeypatch.setattr(ending, "MISSED", 1.0)
+    monkeypatch.setattr(ending, "LOWEST_AIM", 1.0)
+    with pytest.raises(AssertionError):
+        check_luck()
+
+
+def test_the_scatter_is_that_of_pictures_with_such_errors():
+    """10,000 pictures of 500 pixels with errors as unlike as a few bright ones make them: known to 1 %, 4 % would be noticed."""
+    random = np.random.default_rng(3)
+    squares = random.exponential(size=500) ** 3
+    away = random.standard_normal((10_000, 500)) * np.sqrt(squares)
+    errors = np.sqrt(np.square(away).mean(axis=1) / squares.mean())
+    parts = [Found(np.ones(250, int), part, 1.0) for part in np.split(squares, 2)]
+    assert errors.std() == pytest.approx(scatter(parts), rel=0.04)
+    assert scatter([Found(np.ones(500, int), np.ones(500), 1.0)]) == pytest.approx(1000**-0.5)
+    assert 1000**-0.5 < 0.5 * errors.std()
+    assert scatter([Found(np.ones(2, int), np.array((math.inf, 1.0)), 1.0)]) == scatter([Found(np.ones(2, int), np.zeros(2), 1.0)]) == 0
 
 
 def test_what_has_ended_early_is_the_picture_of_so_many_samples():
@@ -155,7 +188,7 @@ def test_the_forecast_follows_the_measured_convergence(spreads, slope, learned):
 
 @pytest.mark.parametrize("spreads", [False, True])
 def test_rounds_look_seldom_while_the_end_is_far_and_often_when_it_is_near(spreads):
-    """A picture whose error is that of independent samples, for a target at 5,000: less than 20 looks, no further than one replicate."""
+    """A picture whose error is that of independent samples, for a target at 5,000: less than 25 looks, no further than one replicate."""
     way = Ending(h.settings(samples=2**20, error_target=0.01, adaptive_sampling=spreads))
     samples, looks, error = 0, 0, math.inf
     while not way.ended_by(samples, error):
@@ -164,7 +197,7 @@ def test_rounds_look_seldom_while_the_end_is_far_and_often_when_it_is_near(sprea
         samples, looks = following, looks + 1
         error = 0.01 * math.sqrt(5000 / samples)
     assert 5000 <= samples <= 5330
-    assert looks < 20
+    assert looks < 25
 
 
 @pytest.mark.parametrize(
