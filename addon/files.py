@@ -51,6 +51,8 @@ def save_png(image, path, scene_name=None):
         # Blender does not say when a disk was full.
         if not is_whole(temporary):
             raise FileError(f"cannot write {path}: the file was cut off, is the disk full?")
+        with open(temporary, "rb+") as file:
+            os.fsync(file.fileno())
         os.replace(temporary, path)
     except (OSError, RuntimeError) as error:
         raise FileError(f"cannot write {path}: {getattr(error, 'strerror', None) or ' '.join(str(error).split())}") from None

@@ -14,6 +14,7 @@ def gather(a, lanes):
     """The `lanes` (M,) of an array along its last axis: `take` in two thirds of the time, as no index is refused.
 
     For indices of lanes and tables, from either end, that are known to be right; others wrap around, or never end if they are huge.
+    What is computed from numbers that may be none is looked up with `take` and "clip" instead.
     """
     return a.take(lanes, axis=-1, mode="wrap")
 

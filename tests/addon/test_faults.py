@@ -16,6 +16,8 @@ import pytest
 import glanz
 from glanz import engine
 from glanz.addon import render_engine, reports, results
+from glanz.addon.capture import capture
+from glanz.addon.files import save_png
 from glanz.engine import rendering
 from glanz.tests.addon import blender
 
@@ -148,6 +150,17 @@ def test_glanz_is_not_switched_off_while_it_renders(lit, tmp_path, monkeypatch):
     glanz.register()
 
 
+def test_without_a_camera_it_is_said_and_nothing_is_written(lit, tmp_path, capfd):
+    """Blender refuses before Glanz is asked; Glanz would too (J13)."""
+    bpy.data.objects.remove(bpy.context.scene.camera)
+    with pytest.raises(RuntimeError, match="no camera"):
+        blender.render(tmp_path / "a.exr")
+    with pytest.raises(engine.SceneError, match="scene 'Scene' has no camera"):
+        capture()
+    assert "Traceback" not in capfd.readouterr().err
+    assert not list(tmp_path.iterdir())
+
+
 def test_collections_in_collections_in_collections_are_no_recursion_of_ours(lit, tmp_path):
     """Instances nested more deeply than Blender itself unfolds them, which says how deep that is (J23)."""
     inner = bpy.data.collections.new("0")
@@ -201,6 +214,19 @@ def test_a_file_that_a_full_disk_cuts_off_does_not_pass_for_a_picture(kind, lit,
         assert [path.name for path in tmp_path.iterdir()] == [f"{whole.name}.cut_off"]
         assert f"the picture '{whole}' was cut off when it was saved, is the disk full?" in caplog.text
         caplog.clear()
+
+
+def test_a_picture_through_the_view_transform_is_whole_or_not_there(limited, tmp_path):
+    """What the command line writes as PNG by way of Blender."""
+    image = engine.Image(64, 64, {"Combined": np.random.default_rng(1).random((64, 64, 4), np.float32)})
+    save_png(image, tmp_path / "a.png")
+    old = (tmp_path / "a.png").read_bytes()
+    for limit in (1, len(old) // 2, len(old) - 1):
+        limited(limit)
+        with pytest.raises(engine.FileError, match=r"cannot write .*a\.png"):
+            save_png(image, tmp_path / "a.png")
+        assert [path.name for path in tmp_path.iterdir()] == ["a.png"]
+        assert (tmp_path / "a.png").read_bytes() == old
 
 
 def test_frames_of_an_animation_are_looked_at_too(lit, limited, tmp_path):
