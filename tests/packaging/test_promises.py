@@ -10,7 +10,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = "docs/promises.md"
 NAMED = re.compile(r"`([\w/]+\.py)::(\w+)`")
-COUNTS = {"A": 13, "B": 11, "C": 11, "D": 17, "E": 13, "F": 11, "G": 11, "H": 10}
+COUNTS = {"A": 13, "B": 11, "C": 11, "D": 17, "E": 13, "F": 11, "G": 11, "H": 10, "J": 23}
 """How many laws there are of each letter; some numbers were never given."""
 
 
