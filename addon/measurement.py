@@ -146,4 +146,5 @@ def read_rows(path):
 
 
 def _in_words(rung):
-    return f"{rung['integrator']}, {rung['sampler']}, {counted(rung['samples'], 'sample')}, depth {rung['max_depth']}"
+    words = f"{rung['integrator']}, {rung['sampler']}, {counted(rung['samples'], 'sample')}, depth {rung['max_depth']}"
+    return words if rung["precision"] == "fast" else f"{words}, {rung['precision']}"

@@ -153,6 +153,7 @@ def _add_bench(commands):
         ("integrators", str, "path and the file's if not given"),
         ("samplers", str, "the file's, sobol and random if not given"),
         ("depths", int, "bounces; the file's if not given"),
+        ("precisions", str, "fast or exact; the file's if not given"),
     ):
         command.add_argument(f"--{name}", type=list_of(kind), default=(), metavar="A,B", help=text)
     told = "paths per pixel; 1,4,16,64 if not given"

@@ -139,6 +139,7 @@ def bench(arguments, terminal):
         "integrators": arguments.integrators or tuple(dict.fromkeys(("path", settings.integrator))),
         "samplers": arguments.samplers or tuple(dict.fromkeys((settings.sampler, "sobol", "random"))),
         "depths": arguments.depths or (settings.max_depth,),
+        "precisions": arguments.precisions or (settings.precision,),
         "samples": arguments.samples,
     }
     with terminal.stopper.orderly(), terminal.progress(f"{shot.scene.name}: {settings.width}x{settings.height}") as show:

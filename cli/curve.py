@@ -50,11 +50,12 @@ class Rung:
     bias: float
     slope: float | None = None
     is_best: bool = False
+    precision: str = "fast"
 
     @property
     def curve(self):
         """What it has in common with others that differ in samples."""
-        return self.integrator, self.sampler, self.max_depth
+        return self.integrator, self.sampler, self.max_depth, self.precision
 
     @property
     def kind(self):
@@ -82,14 +83,16 @@ class Reference:
     doubt: np.ndarray
 
 
-def measure(scene, settings, integrators, samplers, depths, samples, on_progress):
+def measure(scene, settings, integrators, samplers, depths, samples, on_progress, precisions=()):
     """[Rung] of all combinations, in this order, for the rest of `settings`; `on_progress` is called with the share done, in [0, 1].
 
-    Raises SceneError for what cannot be rendered.
+    Without `precisions` there is that of the settings. Raises SceneError for what cannot be rendered.
     """
     ladder = [
-        replace(plain(settings), integrator=integrator, sampler=sampler, max_depth=depth, samples=count)
-        for integrator, sampler, depth, count in product(integrators, samplers, depths, samples)
+        replace(plain(settings), integrator=integrator, sampler=sampler, max_depth=depth, precision=precision, samples=count)
+        for integrator, sampler, depth, precision, count in product(
+            integrators, samplers, depths, precisions or (settings.precision,), samples
+        )
     ]
     for asked in ladder:
         # Before the work, not after it.
@@ -120,6 +123,7 @@ def measure(scene, settings, integrators, samplers, depths, samples, on_progress
                 seconds=float(np.median([seconds for _, seconds, _ in found])),
                 prepared=float(np.median([prepared for _, _, prepared in found])),
                 flip=_flip(against.truth, pictures),
+                precision=asked.precision,
                 **errors(pictures, against.truth, against.doubt),
             )
         )

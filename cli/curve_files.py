@@ -47,9 +47,9 @@ def _plot(paths, rungs, facts):
     axes = figure.add_subplot(xscale="log", yscale="log")
     for curve in dict.fromkeys(rung.curve for rung in rungs):
         own = [rung for rung in rungs if rung.curve == curve]
-        integrator, sampler, depth = curve
+        integrator, sampler, depth, precision = curve
         slope = "" if own[0].slope is None else f", noise by N^{own[0].slope:.2f}"
-        name = f"{integrator}, {sampler}, depth {depth}{slope}"
+        name = f"{integrator}, {sampler}, depth {depth}, {precision}{slope}"
         line = axes.plot([rung.seconds for rung in own], [rung.rmse for rung in own], marker="o", markersize=4, label=name)[0]
         for rung in own:
             axes.annotate(str(rung.samples), (rung.seconds, rung.rmse), (4, 4), textcoords="offset points", size=7, color=line.get_color())
@@ -65,12 +65,12 @@ def _plot(paths, rungs, facts):
 
 def as_lines(rungs):
     """The table for people, line by line; * marks the Pareto front."""
-    lines = ["integrator     sampler     depth samples     time     RMSE    relMSE    FLIP  slope  error is"]
+    lines = ["integrator     sampler     depth precision samples     time     RMSE    relMSE    FLIP  slope  error is"]
     for r in rungs:
         flip = "" if r.flip is None else f"{r.flip:.4f}"
         slope = "" if r.slope is None else f"{r.slope:.2f}"
         lines.append(
-            f"{r.integrator:<14} {r.sampler:<11} {r.max_depth:>5} {r.samples:>7} {r.seconds:>6.2f} s {100 * r.rmse:>6.2f} % "
-            f"{r.relmse:>9.2e} {flip:>7} {slope:>6}  {r.kind}{' *' if r.is_best else ''}"
+            f"{r.integrator:<14} {r.sampler:<11} {r.max_depth:>5} {r.precision:<9} {r.samples:>7} {r.seconds:>6.2f} s "
+            f"{100 * r.rmse:>6.2f} % {r.relmse:>9.2e} {flip:>7} {slope:>6}  {r.kind}{' *' if r.is_best else ''}"
         )
     return lines

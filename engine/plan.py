@@ -189,7 +189,7 @@ class Plan:
         steps = settings.motion_steps if needs.OBJECT_MOTION in requirements else 0
         passes = needs.TRANSPARENCY in requirements
         tints = needs.TINTED_SHADOWS in requirements
-        passing_of = partial(Passing.of, tints_glass=integrator.tints_glass) if passes or tints else None
+        passing_of = partial(Passing.of, tints_glass=integrator.tints_glass, real=settings.real) if passes or tints else None
         # What rays pass on their way is no lobe for them to choose where they end.
         are_passed = passes and not integrator.tints_glass
         bsdfs = tuple(bsdf for bsdf in requirements.plugins("bsdf") if not (are_passed and is_straight(bsdf)))

@@ -2,6 +2,8 @@
 
 import os
 
+import numpy as np
+
 from .memory import require
 
 LANES = 2**16
@@ -13,7 +15,8 @@ _TILE = 2500
 _REPLICATES = 152
 _RANKS = 128
 _BOOKS = 40
-"""Bytes of a path, of a tile that waits, of what a pixel of a film has for replicates and for each pass of ranks, and of one in work."""
+"""Bytes of a path in single precision, of a tile that waits, of what a pixel of a film has for replicates and for each pass of ranks, and
+of one in work."""
 _CURE = "lower the resolution, render a border, or ask for fewer passes"
 _KEPT = "; or do without an error target, a time limit, a checkpoint and rounds over the whole frame, for which all tiles are kept"
 
@@ -46,7 +49,8 @@ def needed(plan, keeps, saves):
     film = 32 + 8 * rows + _RANKS * ranks + _REPLICATES * any(p.reduction == "replicates" for p in plan.passes)
     picture = 4 * _channels(settings.passes, plan.passes)
     kept = width * height if keeps else in_work
-    batch = LANES * (TOGETHER * (16 + 4 * rows) + _LANE)
+    number = np.dtype(settings.real).itemsize
+    batch = LANES * number * (TOGETHER * (4 + rows) + _LANE // 4)
     # What is shown of a tile is divided, rounded and turned, when its samples are in.
     work = max(_BOOKS, 16 * rows)
     # Tiles wait until somebody takes them, and those that are kept come together in the end.

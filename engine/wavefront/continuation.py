@@ -47,7 +47,7 @@ def thinned(plan, rays, scattered):
 
 def unsqueezed(plan, rays):
     """The first column `squeeze` of what camera rays carry."""
-    return np.ones(rays.slot.size, np.float32)
+    return np.ones(rays.slot.size, rays.d.dtype)
 
 
 def squeeze(plan, rays, surface, reflection, scattered):

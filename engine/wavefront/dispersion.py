@@ -19,7 +19,7 @@ _CHANNEL_PLACES = place(CHANNELS)
 
 def white(plan, rays):
     """The first column `wavelength` (N,) [nm] of what camera rays carry: 0, they are white."""
-    return np.zeros(rays.slot.size, np.float32)
+    return np.zeros(rays.slot.size, rays.d.dtype)
 
 
 def one_wavelength(plan, rays, is_dispersive):

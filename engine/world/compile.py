@@ -84,7 +84,7 @@ class CompiledWorld:
     light_groups  {name: (lights + 1,) bool}: which lights belong to each group; the last stands for `film.BACKGROUND`
     glow        what textured emitters shine with, see `texturing`
     camera      the `CameraSpace`
-    background  (3, 1) float32 [W m^-2 sr^-1]
+    background  (3, 1) [W m^-2 sr^-1]
     media       what is inside of bodies; None where nobody asks
     passing     what passes surfaces straight on; None where nobody asks
     sights      what rays of each kind see; None where all see everything
@@ -148,12 +148,12 @@ def compile_world(
     are what all meshes and objects have to bring, keys as in `attributes`; `real` is the dtype of rays. Raises MemoryShortage, a
     SceneError, where the geometry does not fit into memory.
     """
-    require_room(scene, motion_steps)
+    require_room(scene, motion_steps, real)
     materials, row = _number_materials(scene)
     bodies = Bodies.of(scene.objects) if has_media else None
     # What is no body may lie in one, too.
     around = {row[m] for m in materials if has_media and bodies.layer.any() and asks_for_around(m)}
-    by_cosine, table = tabulated(Materials.of(materials, bsdfs, () if disperses else ("spread",)), around)
+    by_cosine, table = tabulated(Materials.of(materials, bsdfs, () if disperses else ("spread",), real), around)
     still = place([(i, o) for i, o in enumerate(scene.objects) if o.is_still or not motion_steps], row, smooth)
     changing = [(i, o) for i, o in enumerate(scene.objects) if motion_steps and o.mesh.triangles.size and not o.is_still]
     moving = [Moving.of(i, o, row, smooth, motion_steps) for i, o in changing]
@@ -228,7 +228,7 @@ def compile_world(
     )
     camera = CameraSpace.of(scene.camera, frame)
     glow = TexturedGlow(table.glowing, triangles, attributes, frame, camera) if table.glowing else EVEN
-    lights = Lights.of(scene.lights, environment, emitters, frame, radius, has_choice, samples_lights, glow, camera)
+    lights = Lights.of(scene.lights, environment, emitters, frame, radius, has_choice, samples_lights, glow, camera, real)
     seems_dark = "its texture was black, below 0 or no number wherever looked at, so it seems to be dark"
     dark = (SceneWarning(seems_dark, "light", name) for name in lights.dark)
     return CompiledWorld(
@@ -240,7 +240,7 @@ def compile_world(
         by_cosine=by_cosine,
         lights=lights,
         emitters=emitters,
-        background=np.array((0.0, 0.0, 0.0) if environment else scene.world.radiance, np.float32)[:, None],
+        background=np.array((0.0, 0.0, 0.0) if environment else scene.world.radiance, real)[:, None],
         media=Media.of(bodies, row, material, owner, frame.scale) if has_media else None,
         passing=passing,
         sights=sights and sights.of_lights(scene, lights, emitters.objects),

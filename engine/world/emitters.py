@@ -36,7 +36,7 @@ class Emitters:
         """From vertices (3, V), and for each emissive triangle: vertex indices, normal, radiance (3, E), object (E,).
 
         Where it `is_textured` (E,) the radiance is its average, and each triangle is a patch of its own. `prim` (E,) are the
-        numbers of the triangles, for the column of that name; None: it is not wanted.
+        numbers of the triangles, for the column of that name; None: it is not wanted. Columns are of the dtype of `normal`.
         """
         first = _first_of_pairs(vertices, triangles, np.where(is_textured, np.nan, radiance), owner)
         single = np.ones(owner.size, bool)
@@ -47,7 +47,7 @@ class Emitters:
         patch[alone] = first.size + np.arange(alone.size)
 
         lead = np.concatenate((first, alone))
-        v0, v1, v2 = vertices.take(triangles.take(lead, axis=1), axis=1).transpose(1, 0, 2)
+        v0, v1, v2 = vertices.take(triangles.take(lead, axis=1), axis=1).astype(normal.dtype, copy=False).transpose(1, 0, 2)
         # A pair (v0, v1, v2), (v0, v2, v3) spans from v0 to v1 and v3; mirrored, (v0, v2, v1), (v0, v3, v2).
         v2 = v2.copy()
         v1 = v1.copy()
@@ -64,7 +64,7 @@ class Emitters:
             e2=e2,
             normal=normal.take(lead, axis=1),
             lift=lift(v0, e1, e2),
-            area=area.astype(np.float32),
+            area=area.astype(normal.dtype),
             radiance=np.where(is_textured, np.float32(1), radiance).take(lead, axis=1),
         )
         if prim is not None:

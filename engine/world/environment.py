@@ -103,7 +103,7 @@ class Environment:
         for row, column, weight in self.look(u, v, self.shape):
             texel = row * self.shape[1]
             texel += column
-            part = self.pixels.take(texel, axis=1, mode="clip")
+            part = self.pixels.take(texel, axis=1, mode="clip").astype(u.dtype, copy=False)
             part *= weight
             L = L + part
             if weighed:

@@ -88,11 +88,11 @@ class Lights:
     hidden_from: tuple = ()
 
     @classmethod
-    def of(cls, lamps, environment, emitters, frame, radius, has_choice=True, are_sampled=True, glow=EVEN, camera=None):
+    def of(cls, lamps, environment, emitters, frame, radius, has_choice=True, are_sampled=True, glow=EVEN, camera=None, real=np.float32):
         """From light values `lamps`, an `Environment` or None, and `Emitters`; `radius` [m] is the scene's, for what is distant.
 
         `has_choice` says that there may be more than one light, `are_sampled` that shadow rays look for them;
-        `glow` is that of the emitters; `camera` is the `CameraSpace`, for lights with a shade.
+        `glow` is that of the emitters; `camera` is the `CameraSpace`, for lights with a shade; the others have columns of the dtype `real`.
         """
         lamps = [lamp for lamp in lamps if any(lamp.power())]
         kinds = {}
@@ -100,7 +100,7 @@ class Lights:
             kinds.setdefault((type(lamp), lamp.shade is not None), []).append(lamp)
         groups = []
         for (kind, is_shaded), own in kinds.items():
-            k, shine = ShadedGlow.of(own, frame, camera) if is_shaded else (columns([lamp.row(frame) for lamp in own]), EVEN)
+            k, shine = ShadedGlow.of(own, frame, camera) if is_shaded else (columns([lamp.row(frame) for lamp in own], real), EVEN)
             groups.append(Group(kind, k, sum(g.count for g in groups), len(own), shine))
         lamps = [lamp for own in kinds.values() for lamp in own]
         shares = [share_left(lamp, frame, camera, radius) if lamp.shade else np.ones(3) for lamp in lamps]

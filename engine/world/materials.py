@@ -50,9 +50,9 @@ class Materials:
     lobes       one `Lobe` for each BSDF and for each further lobe of the same BSDF that some material has; specular ones last
     thresholds  (lobes - 1, M) float32: a material samples the lobe whose interval of [0, 1) holds u1
     shares      (lobes, M) float32: the probability of each lobe, in proportion to its albedo
-    emission    (3, M) float32 [W m^-2 sr^-1]
-    shine       (3, M) float32, the same, but 1 where a texture gives it
-    ambient     (3, M) float32, k_a
+    emission    (3, M) [W m^-2 sr^-1]
+    shine       (3, M), the same, but 1 where a texture gives it
+    ambient     (3, M), k_a
     kind        `Reflection`, or `TwoSided` where a lobe with a width transmits
     textured    {row: the `Textured` columns of that material; none, if but what passes straight on is textured}
     straight    {row: the transmittances of that material's lobes that light passes straight on, if it has textured ones}
@@ -82,8 +82,11 @@ class Materials:
     wanted: dict
 
     @classmethod
-    def of(cls, materials, bsdfs, without=()):
-        """Compile `materials`; `bsdfs` are the plug-ins to make room for, wanted or not, `without` parameters nobody asks for."""
+    def of(cls, materials, bsdfs, without=(), real=np.float32):
+        """Compile `materials`; `bsdfs` are the plug-ins to make room for, wanted or not, `without` parameters nobody asks for.
+
+        Parameters and colours are of the dtype `real`; probabilities are float32, as the numbers are that choose by them.
+        """
         bsdfs = sorted(bsdfs, key=lambda bsdf: bsdf.is_specular)
         slots = [(bsdf, i) for bsdf in bsdfs for i in range(max(1, max(_count(m, bsdf) for m in materials)))]
         lobes, albedos, textured = [], np.zeros((len(slots), len(materials)), np.float32), {}
@@ -95,7 +98,7 @@ class Materials:
                     textured.setdefault(row, []).append(Textured(slot, name, is_number(lobe, name), texture, limits))
             chosen = [averaged(lobe) for lobe in chosen]
             rows = [{name: value for name, value in lobe.row().items() if name not in without} for lobe in chosen]
-            lobes.append(Lobe(bsdf, columns(rows)))
+            lobes.append(Lobe(bsdf, columns(rows, real)))
             albedos[slot] = luminance(bsdf.albedo(lobes[-1].k))
         for row, material in enumerate(materials):
             passed = [lobe for lobe in material.lobes if _is_passed(lobe, bsdfs)]
@@ -103,7 +106,7 @@ class Materials:
                 # Where more passes, less is left for the others, constant as they may be.
                 textured.setdefault(row, [])
         shares = _shares(albedos)
-        emission, ambient = (_colours(getattr(averaged(m), name) for m in materials) for name in ("emission", "ambient"))
+        emission, ambient = (_colours((getattr(averaged(m), name) for m in materials), real) for name in ("emission", "ambient"))
         kind = TwoSided if any(bsdf.transmits and not bsdf.is_specular for bsdf in bsdfs) else Reflection
         glowing = {row: textures_of(m)["emission"] for row, m in enumerate(materials) if "emission" in textures_of(m)}
         unseen = [row for row in glowing if not emission[:, row].any()]
@@ -140,8 +143,8 @@ class Materials:
         return self.kind(tuple(lobes[: self.rough_lobes]), tuple(lobes[self.rough_lobes :]), thresholds, shares)
 
 
-def _colours(colours):
-    return np.array([*colours], np.float32).T.reshape(3, -1)
+def _colours(colours, real):
+    return np.array([*colours], real).T.reshape(3, -1)
 
 
 def _shares(albedos):

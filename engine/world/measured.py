@@ -134,19 +134,22 @@ class MeasuredAccel:
         way, least = np.zeros_like(o), np.zeros_like(u)
         outside = ~((u >= 0) & (v >= 0) & (u + v <= 1))
         least[outside] = np.inf
+        # Not 1 in the frame of a moving object that is stretched.
+        speed = length(d)
+        unit = d / speed
         for corner, edge, (u0, v0), (du, dv) in (
             (first, e1, (0, 0), (1, 0)),
             (first, e2, (0, 0), (0, 1)),
             (first + e1, e2 - e1, (1, 0), (-1, 1)),
         ):
-            share, along, away = _nearest(corner - o, edge, d)
+            share, along, away = _nearest(corner - o, edge, unit)
             distance = length(away)
             nearer = distance < least
-            least, t, way = np.where(nearer, distance, least), np.where(nearer, along, t), np.where(nearer, away, way)
+            least, t, way = np.where(nearer, distance, least), np.where(nearer, along / speed, t), np.where(nearer, away, way)
             u, v = np.where(nearer, u0 + du * share, u), np.where(nearer, v0 + dv * share, v)
         extent = gather(self._extent, prim)
         # Embree's rounding is that of the way to the corners.
-        close = BESIDE_ULPS * EPS32 * (t + extent + np.abs(first + u * e1 + v * e2).max(axis=0))
+        close = BESIDE_ULPS * EPS32 * (t * speed + extent + np.abs(first + u * e1 + v * e2).max(axis=0))
         is_behind |= ~(t > 0)
         lift = LIFT_ULPS * EPS32 * (np.abs(o).max(axis=0) + extent)
         # Past what is behind; and else on the side where the origin is, out of the plane in which Embree's answers are none.
@@ -168,14 +171,19 @@ def _measured(triangles, o, d):
     """
     way, e1, e2 = triangles
     way -= o
-    n, across = cross(e1, e2), cross(way, d)
+    n, across = _rows_of_cross(e1, e2), _rows_of_cross(way, d)
     share = 1 / dot(n, d)
     return dot(n, way) * share, dot(across, e2) * share, dot(across, e1) * -share
 
 
+def _rows_of_cross(a, b):
+    """The vector product as three (N,), which need not lie together."""
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
 def _nearest(way, edge, d):
-    """The share of an `edge` (3, N), which begins at `way`, that the line along d comes nearest to; where on the line that is; and the
-    way (3, N) from the edge to the line.
+    """The share of an `edge` (3, N), which begins at `way`, that the line along d, unit, comes nearest to; where on the line that is; and
+    the way (3, N) from the edge to the line.
     """
     slope, size2 = dot(edge, d), dot(edge, edge)
     # How much of the edge is not along the line; without any, all of it is as near.

@@ -62,11 +62,12 @@ def test_the_front_has_what_nothing_beats():
 def test_the_command_writes_tables_and_plots(tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     write_scene("a.glanz", lit(), h.settings(width=16, height=8, max_depth=1))
-    words = "bench a.glanz -o out --samples 1,4 --samplers sobol --integrators path,distributed"
+    words = "bench a.glanz -o out --samples 1,4 --samplers sobol --integrators path,distributed --precisions fast,exact"
     assert main(words.split()) == 0
     said = capsys.readouterr()
-    heads = [line.split()[:4] for line in said.out.splitlines()[1:5]]
-    assert heads == [[integrator, "sobol", "1", n] for integrator in ("path", "distributed") for n in "14"]
+    heads = [line.split()[:5] for line in said.out.splitlines()[1:9]]
+    kinds = [(integrator, precision, n) for integrator in ("path", "distributed") for precision in ("fast", "exact") for n in "14"]
+    assert heads == [[integrator, "sobol", "1", precision, n] for integrator, precision, n in kinds]
     with open("out/curve.csv", newline="") as file:
         rows = list(csv.DictReader(file))
     kept = json.loads((tmp_path / "out/curve.json").read_text())
@@ -95,6 +96,7 @@ def test_without_libraries_there_is_a_table_and_a_cure(tmp_path, capsys, monkeyp
         (["--samples", "1,x"], "'1,x' is not a list of numbers"),
         (["--samples", "0"], "setting samples is 0"),
         (["--integrators", "magic"], "magic"),
+        (["--precisions", "double"], "setting precision is 'double'"),
     ],
     ids=str,
 )

@@ -12,6 +12,7 @@ import pytest
 
 from glanz.engine import Bitmap, Checkpoint, MemoryShortage, Mesh, PointLight, memory, prepare, render, render_image, render_plan, room
 from glanz.engine.rendering import gathered
+from glanz.engine.scene.settings import PRECISIONS
 from glanz.engine.world import room as world_room
 from glanz.tests import helpers as h
 
@@ -116,6 +117,19 @@ def test_a_picture_takes_what_is_told_of_it(way):
     assert peaks[1] <= told[1]
 
 
+@pytest.mark.parametrize("way", WAYS)
+def test_a_picture_in_double_precision_takes_no_more_than_is_told_of_it(way):
+    changes, ends = WAYS[way]
+    settings = h.settings(**{"width": 256, "height": 256, "samples": 16, "tile_size": 64, "precision": "exact", **changes})
+    plan, _ = prepare(lit(), settings)
+    tracemalloc.start()
+    gathered(render_plan(plan, ends), settings)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    told = room.needed(plan, keeps=bool(ends or settings.time_limit), saves=False)
+    assert 0.05 * told < peak <= told
+
+
 def grid(count):
     """A rough ground of 2 count^2 triangles."""
     y, x = np.mgrid[: count + 1, : count + 1] / count
@@ -125,21 +139,22 @@ def grid(count):
     return Mesh(name="ground", vertices=np.stack((x, y, height)).reshape(3, -1), triangles=np.concatenate(triangles, axis=1))
 
 
+@pytest.mark.parametrize("precision", ["fast", "exact"])
 @pytest.mark.parametrize("emission", [0.0, 1.0])
 @pytest.mark.parametrize("is_smooth", [False, True])
-def test_geometry_takes_what_is_told_of_it(is_smooth, emission):
+def test_geometry_takes_what_is_told_of_it(is_smooth, emission, precision):
     """By how much the peak grows from 20,000 triangles to 180,000. Python does not know of Embree's tree: 60 to 70 bytes for each."""
     peaks, triangles = [], []
     for count in (100, 300):
         mesh = grid(count).smoothed() if is_smooth else grid(count)
         scene = lit(h.thing(mesh, h.lambert(emission=emission)))
         tracemalloc.start()
-        prepare(scene, h.settings())
+        prepare(scene, h.settings(precision=precision))
         peaks.append(tracemalloc.get_traced_memory()[1])
         tracemalloc.stop()
         triangles.append(mesh.triangles.shape[1])
     taken = (peaks[1] - peaks[0]) / (triangles[1] - triangles[0]) + 70
-    told = world_room.BYTES_PER_TRIANGLE + world_room.BYTES_PER_LAMP * (emission > 0)
+    told = world_room.bytes_per_triangle(emission > 0, PRECISIONS[precision])
     assert 0.5 * told < taken <= told
 
 
@@ -203,6 +218,7 @@ PRELUDE = """
 import resource, sys
 import numpy as np
 from glanz.engine import GlanzError, Object, prepare, render_image
+from glanz.engine.scene.settings import PRECISIONS
 from glanz.tests import helpers as h
 prepare(h.scene([h.thing(h.quad())]), h.settings())
 def limited(megabytes):

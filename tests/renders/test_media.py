@@ -353,7 +353,8 @@ def test_likeness_catches_shadow_rays_that_weaker_bodies_stop(monkeypatch):
         test_what_is_weaker_than_its_surroundings_is_not_there()
 
 
-def test_a_thin_pane_is_two_boundaries():
+@pytest.mark.parametrize("precision", ["fast", "exact"])
+def test_a_thin_pane_is_two_boundaries(precision):
     """A10: a millionth of the distance thick, with and without media around; each ray passes exactly two."""
     camera = PerspectiveCamera.look_at((0.1, 0.2, 1), (0, 0, 0), up=(0, 1, 0), fov=0.4)
     for more in ([], [body(-5, 5, 0.0, -1, side=6.0, name="around")]):
@@ -361,17 +362,18 @@ def test_a_thin_pane_is_two_boundaries():
             things = [body(0, 1e-6, 0.5, lobe=OPEN, side=0.5), *more]
             small = [h.replaced(o, world_from_object=scale * o.world_from_object) for o in things]
             eye = h.replaced(camera, world_from_camera=h.affine(camera.world_from_camera[:3, :3], scale * camera.world_from_camera[:3, 3]))
-            plan = h.plan_of(h.scene(small, camera=eye, world=1.0), h.settings(max_depth=10, samples=1))
+            plan = h.plan_of(h.scene(small, camera=eye, world=1.0), h.settings(max_depth=10, samples=1, precision=precision))
             passed = []
             count = lambda plan, rays, surface, reflection, scattered, passed=passed: passed.append(rays.slot)  # noqa: E731
             h.pixels_of_plan(dataclasses.replace(plan, on_leaving=(*plan.on_leaving, count)))
             assert np.bincount(np.concatenate(passed)).tolist() == [2 + len(more)] * 64
 
 
-def test_two_boundaries_catch_rays_that_start_too_far_off(monkeypatch):
+@pytest.mark.parametrize("precision", ["fast", "exact"])
+def test_two_boundaries_catch_rays_that_start_too_far_off(monkeypatch, precision):
     monkeypatch.setattr("glanz.engine.world.interaction.START_ULPS", 100)
     with pytest.raises(AssertionError):
-        test_a_thin_pane_is_two_boundaries()
+        test_a_thin_pane_is_two_boundaries(precision)
 
 
 def test_a_part_in_another_glass_closes_the_same_body():

@@ -233,6 +233,15 @@ def test_slivers_are_met_only_where_rays_pass_them(aspect):
     assert np.count_nonzero(distance[found.prim == 0] > 1000 * EPS32) > 100
 
 
+def test_the_length_of_directions_changes_the_unit_of_distances_only():
+    """As in the frames of moving objects that are stretched."""
+    tree, o, d, _ = beside_a_sliver(1e4, 30_000)
+    hits, long = tree.closest(o, d), tree.closest(o, 8 * d)
+    assert (long.prim == hits.prim).mean() > 0.9995
+    same = long.prim == hits.prim
+    np.testing.assert_allclose(8 * long.t[same], hits.t[same], rtol=1e-9)
+
+
 def test_a_shadow_is_cast_only_by_what_is_in_the_way():
     """Shadow rays are blocked where others meet something as near; Embree alone blocks hundreds more."""
     tree, o, d, _ = beside_a_sliver(1e4, 30_000)
