@@ -6,8 +6,11 @@ import numpy as np
 
 from ..arrays import frozen
 from ..errors import SceneError
+from ..memory import require
 
 INTERPOLATIONS = ("linear", "closest")
+_BYTES = 60
+"""Of a pixel, while a world is made of it; measured, rounded up."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -19,7 +22,7 @@ class EnvironmentMap:
     world_from_map  (3, 3) orthogonal: turns, or mirrors, the picture's frame into the world's
     strength        factor of the radiance, (r, g, b)
     interpolation   between the middles of pixels "linear", or "closest"
-    Raises SceneError where shapes do not fit.
+    Raises SceneError where shapes do not fit, MemoryShortage where the picture would not.
     """
 
     pixels: np.ndarray
@@ -30,6 +33,10 @@ class EnvironmentMap:
 
     def __post_init__(self):
         subject = f"environment '{self.name}'"
+        if np.ndim(self.pixels) == 3:
+            height, width = np.shape(self.pixels)[1:]
+            what = f"the pixels of {subject}, {width}x{height} of them, and the tables by which they are found,"
+            require(height * width * _BYTES, what, "scale it down")
         try:
             pixels = frozen(self.pixels, np.float32, (3, None, None), subject, "pixels")
             matrix = frozen(self.world_from_map, np.float64, (3, 3), subject, "world_from_map")

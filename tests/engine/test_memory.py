@@ -10,8 +10,23 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from glanz.engine import Bitmap, Checkpoint, MemoryShortage, Mesh, PointLight, memory, prepare, render, render_image, render_plan, room
+from glanz.engine import (
+    Bitmap,
+    Checkpoint,
+    EnvironmentMap,
+    MemoryShortage,
+    Mesh,
+    PointLight,
+    World,
+    memory,
+    prepare,
+    render,
+    render_image,
+    render_plan,
+    room,
+)
 from glanz.engine.rendering import gathered
+from glanz.engine.scene import environment
 from glanz.engine.scene.settings import PRECISIONS
 from glanz.engine.world import room as world_room
 from glanz.tests import helpers as h
@@ -212,6 +227,21 @@ def test_an_image_is_refused_by_name(monkeypatch):
     pixels = np.zeros((3, 100, 200), np.uint8)
     told = "the pixels of image 'big', 200x100 of them, and their mip maps need about .*: scale it down"
     refused_at(monkeypatch, 100 * 200 * (4 + 6), lambda: Bitmap(name="big", pixels=pixels), told)
+
+
+def test_an_environment_is_refused_by_name_and_takes_what_is_told(monkeypatch):
+    """By how much the peak grows from 64 rows to 256, of pixels that are converted, too."""
+    peaks, pixels = [], [np.random.default_rng(1).random((3, rows, 2 * rows)) for rows in (64, 256)]
+    for values in pixels:
+        tracemalloc.start()
+        prepare(h.replaced(lit(), world=World(environment=EnvironmentMap(pixels=values))), h.settings())
+        peaks.append(tracemalloc.get_traced_memory()[1])
+        tracemalloc.stop()
+    taken = (peaks[1] - peaks[0]) / (pixels[1][0].size - pixels[0][0].size)
+    told = environment._BYTES
+    assert 0.5 * told < taken <= told
+    words = "the pixels of environment 'sky', 512x256 of them, and .* need about .*: scale it down"
+    refused_at(monkeypatch, 512 * 256 * told, lambda: EnvironmentMap(name="sky", pixels=pixels[1]), words)
 
 
 PRELUDE = """
