@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import bpy
 import numpy as np
 
+from ...engine import require_memory
 from .findings import IGNORED
 from .mesh import corners, has_vertex_normals, is_flat, mesh_of, normals, triangle_corners, vertices
 
@@ -289,6 +290,11 @@ class _Shapes:
         if now.shape != self._mesh.vertices.shape or not np.array_equal(corners(data), self._corners):
             self.is_other = True
             return
+        if all(shape is self._mesh.vertices for shape in self._vertices):
+            # All of them, and once more side by side.
+            needed = 2 * len(self._vertices) * (now.nbytes + self._mesh.normals.nbytes)
+            what = f"the {len(self._vertices)} shapes of mesh '{self._mesh.name}', with {now.shape[1]} vertices each,"
+            require_memory(needed, what, "take fewer motion steps, or switch off its deformation blur")
         self._vertices[number] = now
         if self._mesh.is_smooth and not is_flat(data):
             now, is_of_vertices = normals(data), has_vertex_normals(data)

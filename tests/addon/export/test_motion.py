@@ -7,6 +7,7 @@ import pytest
 from glanz.addon import capture, checks
 from glanz.addon.export.mesh import export_mesh, triangle_corners
 from glanz.addon.export.motion import _Shapes
+from glanz.engine import MemoryShortage, memory
 from glanz.tests.addon import blender
 
 
@@ -162,6 +163,17 @@ def test_deformation_can_be_switched_off():
     shape_key(ob, {9: 0.0, 11: 1.0})
     ob.cycles.use_deform_motion = False
     assert moved()[0].is_still
+
+
+def test_shapes_that_would_not_fit_into_memory_are_refused_by_mesh(monkeypatch):
+    """Three of four vertices, twice."""
+    open_shutter()
+    ob = blender.add_plane()
+    shape_key(ob, {9: 0.0, 11: 1.0})
+    needed = 2 * 3 * 4 * 12
+    monkeypatch.setattr(memory, "free", lambda: (needed - 1) / memory.SHARE)
+    with pytest.raises(MemoryShortage, match=r"the 3 shapes of mesh 'Plane', with 4 vertices each, need about .*: take fewer motion steps"):
+        capture.capture()
 
 
 def test_instances_of_a_mesh_share_its_shapes():
