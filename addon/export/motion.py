@@ -9,12 +9,14 @@ from dataclasses import dataclass, replace
 import bpy
 import numpy as np
 
-from ...engine import require_memory
+from ...engine import SceneError, require_memory
 from .findings import IGNORED
 from .mesh import corners, has_vertex_normals, is_flat, mesh_of, normals, triangle_corners, vertices
 
 _MOST_STEPS = 7
 """As in Cycles: 129 keys."""
+_LAST_FRAME = 1_048_574
+"""Of Blender."""
 
 
 def keys_of(ob, parent=None):
@@ -39,12 +41,21 @@ class Shutter:
 
     start  the frame that was before
     blurs  whether the picture is; else passes alone show what moves
+    Raises SceneError for frames that Blender does not have.
     """
 
     frames: tuple
     frame_set: object
     start: float
     blurs: bool = True
+
+    def __post_init__(self):
+        # Not "> ...": what is no number is refused too.
+        if not all(abs(frame) <= _LAST_FRAME for frame in (self.start, *self.frames)):
+            seen = f"from frame {self.frames[0]:g} to {self.frames[-1]:g}"
+            raise SceneError(
+                f"what moves is to be seen {seen}, allowed: -{_LAST_FRAME} to {_LAST_FRAME}; look at the frame and the shutter"
+            )
 
     @classmethod
     def beside(cls, depsgraph, frame_set):

@@ -14,6 +14,7 @@ import random
 import sys
 import tempfile
 import warnings
+from functools import cache
 from pathlib import Path
 
 import bpy
@@ -81,7 +82,7 @@ class Mutated:
         spline.bezier_points[1].co = (1, 1, 1)
         curve.bevel_depth = 0.1
         self.things.append(blender.link("Curve", curve, (-1, 0, 0)))
-        shaders, values = trees.offered()
+        shaders, values = self._offered()
         for thing in self.things[-3:]:
             material = blender.new_material(f"Of {thing.name}", self.rng.choice(shaders))
             thing.data.materials.append(material)
@@ -90,9 +91,34 @@ class Mutated:
             fitting = [s for s in tree.nodes[0].inputs if s.type in ("RGBA", "VALUE") and s.enabled]
             if fitting and self.rng.random() < 0.6:
                 tree.links.new(self.rng.choice([s for s in texture.outputs if s.enabled]), self.rng.choice(fitting))
+        body = self.things[-2]
+        for frame, place in ((0, -0.2), (2, 0.2)):
+            body.location.x = place
+            body.keyframe_insert("location", frame=frame)
+        scene = bpy.context.scene
+        scene.render.use_motion_blur = self.rng.random() < 0.3
+        for layer in (scene.view_layers[0], scene.view_layers[0].glanz):
+            for p in layer.bl_rna.properties:
+                if p.identifier.startswith("use_pass_") and self.rng.random() < 0.2:
+                    setattr(layer, p.identifier, True)
 
-    def _owners(self):
-        """Whatever has properties to set."""
+    @staticmethod
+    @cache
+    def _offered():
+        found = trees.offered()
+        # It has all the nodes that there are.
+        bpy.data.materials.remove(bpy.data.materials["Scratch"])
+        return found
+
+    def _shading(self):
+        """Nodes and their sockets."""
+        for holder in (*bpy.data.materials, *bpy.data.worlds, *bpy.data.lights):
+            for node in holder.node_tree.nodes if holder.node_tree else ():
+                yield node
+                yield from (s for s in node.inputs if hasattr(s, "default_value"))
+
+    def _others(self):
+        """Whatever else has properties to set."""
         scene = bpy.context.scene
         yield from (scene, scene.render, scene.glanz, scene.world, scene.world.mist_settings, scene.world.light_settings)
         yield from (scene.view_layers[0], scene.view_layers[0].glanz, scene.view_settings)
@@ -103,10 +129,6 @@ class Mutated:
         for holder in (*bpy.data.materials, *bpy.data.worlds, *bpy.data.lights, *bpy.data.cameras, *bpy.data.meshes, *bpy.data.objects):
             if getattr(holder, "glanz", None) is not None:
                 yield holder.glanz
-            if getattr(holder, "node_tree", None) is not None:
-                for node in holder.node_tree.nodes:
-                    yield node
-                    yield from (s for s in node.inputs if hasattr(s, "default_value"))
         yield from bpy.data.materials
 
     def _change(self):
@@ -119,7 +141,7 @@ class Mutated:
             thing, name = self.rng.choice(self.things[-3:]), self.rng.choice(MODIFIERS)
             self.log.append(f"{thing.name}: modifier {name}")
             return thing.modifiers.new(name, name)
-        owners = list(self._owners())
+        owners = list(self.rng.choice((self._shading, self._others))())
         # Each kind alike, or all would be sockets.
         chosen = self.rng.choice(sorted({type(owner).__name__ for owner in owners}))
         owner = self.rng.choice([owner for owner in owners if type(owner).__name__ == chosen])

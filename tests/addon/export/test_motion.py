@@ -7,7 +7,7 @@ import pytest
 from glanz.addon import capture, checks
 from glanz.addon.export.mesh import export_mesh, triangle_corners
 from glanz.addon.export.motion import _Shapes
-from glanz.engine import MemoryShortage, memory
+from glanz.engine import MemoryShortage, SceneError, memory
 from glanz.tests.addon import blender
 
 
@@ -69,6 +69,14 @@ def test_frames_may_have_fractions_and_be_negative():
     bpy.context.scene.frame_set(0, subframe=0.25)
     np.testing.assert_allclose(moved()[0].motion[:, 0, 3], (0, 0.5, 1.5), atol=1e-5)
     assert bpy.context.scene.frame_subframe == 0.25
+
+
+@pytest.mark.parametrize("shutter", [1e30, 3e6])
+def test_frames_that_blender_does_not_have_are_refused(shutter):
+    open_shutter(shutter)
+    slide(blender.add_plane())
+    with pytest.raises(SceneError, match="allowed: -1048574 to 1048574; look at the frame and the shutter"):
+        capture.capture()
 
 
 def test_motion_blur_that_is_off_moves_nothing():
