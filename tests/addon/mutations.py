@@ -32,6 +32,8 @@ ODD = (0.0, -0.0, 1.0, -1.0, 0.5, 1e-30, 1e-6, 1e6, -1e6, 1e30, -3e38, math.nan,
 # What decides where files go and how large they are; what takes long by intent; what is another program's.
 LEFT = {
     "Scene": {"sync_mode", "use_nodes"},
+    # Blender 5.0 aborts when it evaluates such a curve that ends at NaN.
+    "Curve": {"bevel_factor_start", "bevel_factor_end"},
     "RenderSettings": {
         *("resolution_x", "resolution_y", "resolution_percentage", "engine", "filepath", "use_file_extension", "use_overwrite"),
         *("use_placeholder", "use_sequencer", "use_freestyle", "display_mode", "stamp_font_size", "use_stamp", "use_stamp_note"),
