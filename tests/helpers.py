@@ -247,11 +247,11 @@ def mean_is(samples, truth, floor=0.0, absolute=0.0):
 
 
 def means_agree(a, b, floor=0.0):
-    """Whether independent samples a and b have one mean: Welch's t at level ALPHA."""
+    """Whether independent samples a and b have one mean: Welch's t at level ALPHA. That of nothing and nothing proves nothing: False."""
     a, b = np.asarray(a, np.float64).ravel(), np.asarray(b, np.float64).ravel()
     va, vb = a.var(ddof=1) / a.size, b.var(ddof=1) / b.size
     if va + vb == 0:
-        return bool(abs(a.mean() - b.mean()) <= floor * abs(a.mean()))
+        return bool(a.any() and abs(a.mean() - b.mean()) <= floor * abs(a.mean()))
     freedom = (va + vb) ** 2 / (va**2 / (a.size - 1) + vb**2 / (b.size - 1))
     return bool(abs(a.mean() - b.mean()) <= stats.t.isf(ALPHA / 2, freedom) * math.sqrt(va + vb) + floor * abs(a.mean()))
 

@@ -60,7 +60,7 @@ def irradiance(scene, **changes):
 
 
 def is_weakened(values, truth):
-    """Whether the channels of `values` have the means `truth` (3,); detects 1 % or better."""
+    """Whether the channels of `values` have the means `truth` (3,)."""
     return all(h.mean_is(channel, E, floor=1e-5, absolute=1e-9) for channel, E in zip(values, truth, strict=True))
 
 
@@ -73,10 +73,16 @@ WAYS += [("point", "whitted"), ("sun", "whitted"), ("point", "distributed"), ("a
 @pytest.mark.parametrize("count", [0, 1, 3])
 @pytest.mark.parametrize(("name", "integrator"), WAYS)
 def test_k_sheets_leave_the_kth_power_of_their_transmittance(name, count, integrator):
-    """tau^k E, coloured, under every kind of light; askew, sheets are met at all angles and count once each."""
+    """tau^k E, coloured, under every kind of light; askew, sheets are met at all angles and count once each.
+
+    Detects 3 %, and 10 % of a sun that scattered rays have to find.
+    """
     lights, objects, E = LIGHTS[name]
     scene = below(lights, [*objects, *sheets(count, clear(TINT), 0.6, 0.75, 40.0)])
-    assert is_weakened(irradiance(scene, integrator=integrator, samples=64 if integrator == "path" else 400), TINT**count * E)
+    values = irradiance(scene, integrator=integrator, samples=64 if integrator == "path" else 400)
+    assert is_weakened(values, TINT**count * E)
+    noticed = 1.1 if name == "wide sun" and integrator != "path" else 1.03
+    assert not is_weakened(noticed * values, TINT**count * E)
 
 
 @pytest.mark.parametrize("integrator", ["path", "path_naive"])

@@ -128,6 +128,7 @@ def test_lights_add_up():
     """The picture under all lights is the sum of those under each."""
     camera = PerspectiveCamera.look_at((3, -4, 2.5), (0, 0, 0.5))
     together, *alone = (h.pixels(h.scene(dull_and_glossy(), lights, camera), WHITTED) for lights in (LIGHTS, *([one] for one in LIGHTS)))
+    assert all(image.any() for image in alone)
     np.testing.assert_allclose(together, sum(alone), rtol=1e-5)
 
 

@@ -46,6 +46,8 @@ def test_agreement_is_found_where_it_is_and_only_there():
     assert not h.means_agree(rng.standard_normal(500), rng.standard_normal(500) + 0.5)
     assert h.means_agree(np.full(9, 0.1), np.full(9, 0.1))
     assert not h.means_agree(np.full(9, 0.1), np.full(9, 0.2))
+    # Two renderers of black are not seen to agree.
+    assert not h.means_agree(np.zeros(9), np.zeros(9))
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf])
