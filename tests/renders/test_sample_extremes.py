@@ -76,7 +76,7 @@ def test_the_mean_catches_roulette_without_its_weight(monkeypatch, r):
 
 @pytest.mark.parametrize("power", [1e10, 1e20, 1e30])
 def test_what_outshines_all_is_not_clamped(power):
-    """H10: there is no clamping of fireflies, so what a lamp gives is in proportion to its power up to where float32 ends."""
+    """H10: unless clamping is asked for, what a lamp gives is in proportion to its power up to where float32 ends."""
     weak, strong = (h.pixels(h.receiver([PointLight(position=(0.3, 0.2, 1.0), intensity=(p,) * 3)]), h.settings()) for p in (1.0, power))
     assert weak.min() > 0
     np.testing.assert_allclose(strong.astype(np.float64) / power, weak, rtol=1e-6)
