@@ -76,8 +76,8 @@ def test_a_limit_that_is_passed_on_to_the_wrong_light_is_noticed(monkeypatch):
     """The mutant: the limits are mixed up."""
     init = ClampedFilm.__init__
 
-    def swapped(self, pixels, passes, replicates, limits):
-        init(self, pixels, passes, replicates, limits[::-1])
+    def swapped(self, *others, limits, **more):
+        init(self, *others, limits=limits[::-1], **more)
 
     monkeypatch.setattr(ClampedFilm, "__init__", swapped)
     with pytest.raises(AssertionError):
