@@ -205,14 +205,25 @@ def test_white_concave_objects_vanish_in_white_light():
     assert not h.mean_is(1.005 * image[0], 1.0, floor=1e-3)
 
 
-@pytest.mark.parametrize(("degrees", "albedo"), [(0, 1.0), (45, 0.707374), (80, 0.228056)])
+@pytest.mark.parametrize(
+    ("n", "degrees", "albedo"),
+    [
+        (10.0, 0, 1.0),
+        (10.0, 45, 0.707374),
+        (10.0, 80, 0.228056),
+        *((n, 0, 1.0) for n in (0.0, 0.5, 1e3, 1e6)),
+        (0.0, 60, 0.75),
+        (1e6, 60, 0.5),
+    ],
+)
 @chance.fresh
-def test_a_phong_surface_in_white_light_shows_its_albedo(degrees, albedo):
-    """F2 and C2 for n = 10; detects 0.3 %."""
-    material = Material(name="shiny", lobes=(Phong((1.0, 1.0, 1.0), 10.0),))
+def test_a_phong_surface_in_white_light_shows_its_albedo(n, degrees, albedo):
+    """F2 and C2 to C5: for n = 10, at both ends, and for a sharp lobe the cosine; detects 0.5 %."""
+    material = Material(name="shiny", lobes=(Phong((1.0, 1.0, 1.0), n),))
     scene = h.replaced(h.receiver(material=material, tilt=math.radians(degrees)), world=h.World(radiance=(1.0,) * 3))
     image = h.pixels(scene, h.settings(width=16, height=16, samples=256, max_depth=0))
-    assert h.mean_is(image[0], albedo, floor=1e-5)
+    assert h.mean_is(image[0], albedo, floor=1e-4 if n == 1e6 else 1e-5)
+    assert not h.mean_is(1.005 * image[0], albedo, floor=1e-5)
 
 
 def test_more_depth_is_more_light_and_converges():
