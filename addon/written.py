@@ -17,6 +17,7 @@ from . import command_line
 CUT_OFF = ".cut_off"
 """What is put behind the name of a file that is not whole."""
 log = logging.getLogger("glanz")
+_before = {}
 _PNG_END = b"IEND\xaeB`\x82"
 _EXR_START = b"\x76\x2f\x31\x01"
 _EXR_TILED, _EXR_PARTS = 0x200, 0x1000
@@ -82,14 +83,24 @@ def _read_name(file):
 
 
 def paths_of(scene):
-    """Where Blender may just have written a picture of `scene`: by its path, or with the number of the frame in it; of each eye."""
-    render = scene.render
+    """Where Blender may just have written a picture of `scene`: by its path, or with the number of the frame in it; of each eye.
+
+    Raises RuntimeError for a path that Blender does not understand.
+    """
+    render, frame = scene.render, scene.frame_current
+    numbered = _frame_path(scene)
     still = bpy.path.abspath(render.filepath)
     if render.use_file_extension and not still.lower().endswith(render.file_extension):
         still += render.file_extension
-    paths = [Path(still), Path(render.frame_path(frame=scene.frame_current))]
+    # Blender fills in templates for frames alone.
+    filled = numbered.with_name(numbered.stem.removesuffix(f"{frame:04}") + numbered.suffix)
+    paths = [path for path in (numbered, filled, Path(still)) if path.name]
     eyes = [view.file_suffix for view in render.views if view.use] if render.use_multiview else []
     return dict.fromkeys((*paths, *(path.with_name(f"{path.stem}{eye}{path.suffix}") for path in paths for eye in eyes)))
+
+
+def _frame_path(scene):
+    return Path(scene.render.frame_path(frame=scene.frame_current))
 
 
 def refuse_unwritable(engine, scene, show):
@@ -102,12 +113,15 @@ def refuse_unwritable(engine, scene, show):
 
     if scene.render.is_movie_format or not (engine.is_animation or bpy.app.background):
         return
-    path = Path(scene.render.frame_path(frame=scene.frame_current))
-    obstacle = _obstacle(path)
+    try:
+        path = _frame_path(scene)
+        obstacle = _obstacle(path)
+    except RuntimeError as error:
+        path, obstacle = scene.render.filepath, " ".join(str(error).removeprefix("Error: ").split())
     if obstacle:
-        message = f"scene '{scene.name}': its picture cannot be saved as '{path}': {obstacle}"
+        message = f"scene '{scene.name}': its picture cannot be saved as '{path}': {obstacle}; choose another output path"
         if engine.is_animation:
-            raise SceneError(f"{message}; choose another output path")
+            raise SceneError(message)
         show((message,))
 
 
@@ -124,12 +138,17 @@ def _obstacle(path):
 
 
 @bpy.app.handlers.persistent
+def look(scene, _=None):
+    """Remember the files that are there before a picture is rendered; called by Blender."""
+    _before.clear()
+    _before.update(_files(scene))
+
+
+@bpy.app.handlers.persistent
 def check(scene, _=None):
     """Give files that were cut off another name, and say so; called by Blender when it has written a picture."""
-    if scene.render.engine != "GLANZ" or scene.render.is_movie_format:
-        return
-    for path in paths_of(scene):
-        if path.is_file() and not is_whole(path):
+    for path, state in _files(scene).items():
+        if state != _before.get(path) and not is_whole(path):
             other = path.with_name(path.name + CUT_OFF)
             os.replace(path, other)
             message = f"the picture '{path}' was cut off when it was saved, is the disk full? What there is of it is called '{other.name}'"
@@ -137,9 +156,23 @@ def check(scene, _=None):
             command_line.end_after_failure(message)
 
 
+def _files(scene):
+    """{path: what changes when it is written} of what there is where a picture of `scene` belongs."""
+    if scene.render.engine != "GLANZ" or scene.render.is_movie_format:
+        return {}
+    try:
+        paths = [path for path in paths_of(scene) if path.is_file()]
+    except RuntimeError:
+        # Nothing can be written there, and Blender says so.
+        return {}
+    return {path: (path.stat().st_mtime_ns, path.stat().st_size) for path in paths}
+
+
 def register():
+    bpy.app.handlers.render_pre.append(look)
     bpy.app.handlers.render_write.append(check)
 
 
 def unregister():
     bpy.app.handlers.render_write.remove(check)
+    bpy.app.handlers.render_pre.remove(look)

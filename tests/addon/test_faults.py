@@ -236,6 +236,15 @@ def test_frames_of_an_animation_are_looked_at_too(lit, limited, tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["a_0007.png.cut_off"]
 
 
+def test_files_that_were_there_before_are_left_alone(lit, tmp_path):
+    """Whoever has cut them off."""
+    (tmp_path / "a_.png").write_bytes(b"half of")
+    bpy.context.scene.frame_start = bpy.context.scene.frame_end = 7
+    save("PNG", tmp_path / "a_", animation=True)
+    assert (tmp_path / "a_.png").read_bytes() == b"half of"
+    assert {path.name for path in tmp_path.iterdir()} == {"a_.png", "a_0007.png"}
+
+
 def test_eyes_with_files_of_their_own_are_looked_at_too(lit, limited, tmp_path):
     render = bpy.context.scene.render
     render.use_multiview = True
@@ -265,6 +274,21 @@ def test_where_nothing_can_be_saved_is_told_before_the_work(how, lit, tmp_path, 
         )
     assert [path.name for path in tmp_path.iterdir()] == ["file"]
     assert (tmp_path / "file").read_text() == "mine"
+
+
+@pytest.mark.skipif(bpy.app.version < (5, 0), reason="paths have no templates")
+def test_a_path_that_blender_does_not_understand_is_said_before_the_work(lit, tmp_path):
+    for how in ({"write_still": True}, {"animation": True}):
+        with pytest.raises(RuntimeError, match=r"\{bad\}"):
+            save("PNG", tmp_path / "{bad}" / "a", **how)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.skipif(bpy.app.version < (5, 0), reason="paths have no templates")
+def test_names_that_blender_fills_in_are_looked_at_too(lit, limited, tmp_path):
+    limited(100)
+    save("PNG", tmp_path / "{blend_name}")
+    assert [path.name for path in tmp_path.iterdir()] == ["Unsaved.png.cut_off"]
 
 
 def test_folders_that_blender_makes_are_no_obstacle(lit, tmp_path):
