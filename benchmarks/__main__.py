@@ -1,6 +1,6 @@
 """Run all measurements, print them with the bars they are held to, and write out/bench.json.
 
-    python -m benchmarks [name ...]    of: speed error many_lights instances motion features memory large; none: all but large,
+    python -m benchmarks [name ...]    of: speed error many_lights instances motion features memory extremes large; none: all but large,
     which takes minutes and gigabytes
 
 Every measurement runs in a process of its own. Nothing here fails because of a time: numbers are to be read.
@@ -18,7 +18,7 @@ from .table import show
 
 ROOT = Path(__file__).resolve().parent.parent
 OUT = ROOT / "out"
-NAMES = ("speed", "error", "many_lights", "instances", "motion", "features", "memory")
+NAMES = ("speed", "error", "many_lights", "instances", "motion", "features", "memory", "extremes")
 IF_ASKED = ("large",)
 
 

@@ -8,11 +8,13 @@ import time
 from pathlib import Path
 
 import bpy
+import numpy as np
 
 import glanz
 
 CORNELL_BOX = Path(glanz.__file__).resolve().parent / "sample_scenes" / "cornell_box.blend"
 THREADS = 2
+OUT = Path("out").resolve()
 
 
 def open_cornell_box(samples, width=512, height=512):
@@ -43,6 +45,25 @@ def press_f12(engine, **options):
     with quiet():
         bpy.ops.render.render(**options)
     return time.perf_counter() - wall, time.process_time() - cpu
+
+
+def picture(engine):
+    """(height, width, 4) linear pixels, by F12 and through a file."""
+    scene = bpy.context.scene
+    image_settings = scene.render.image_settings
+    if hasattr(image_settings, "media_type"):
+        image_settings.media_type = "IMAGE"
+    image_settings.file_format, image_settings.color_depth = "OPEN_EXR", "32"
+    path = OUT / "bench_picture.exr"
+    scene.render.filepath = str(path)
+    press_f12(engine, write_still=True)
+    image = bpy.data.images.load(str(path))
+    pixels = np.empty(len(image.pixels), np.float32)
+    image.pixels.foreach_get(pixels)
+    width, height = image.size
+    bpy.data.images.remove(image)
+    path.unlink()
+    return pixels.reshape(height, width, 4)
 
 
 @contextlib.contextmanager

@@ -5,7 +5,6 @@ times as bright, would else be all that counts.
 """
 
 import hashlib
-from pathlib import Path
 
 import bpy
 import numpy as np
@@ -13,7 +12,6 @@ import numpy as np
 from . import blender
 
 SAMPLES, REFERENCE, SIDE, SEEDS = 16, 2048, 128, 4
-OUT = Path("out").resolve()
 
 
 def main():
@@ -30,7 +28,7 @@ def main():
 def kept_reference(engine):
     """A picture of `REFERENCE` samples, rendered once for each version of the file and of Blender."""
     mark = hashlib.sha256(blender.CORNELL_BOX.read_bytes() + bpy.app.version_string.encode()).hexdigest()[:12]
-    path = OUT / f"bench_reference_{engine.lower()}_{REFERENCE}_{mark}.npy"
+    path = blender.OUT / f"bench_reference_{engine.lower()}_{REFERENCE}_{mark}.npy"
     if not path.exists():
         blender.open_cornell_box(REFERENCE, SIDE, SIDE)
         np.save(path, picture(engine, seed=0))
@@ -41,19 +39,7 @@ def picture(engine, seed):
     """(SIDE, SIDE, 4) linear pixels, cut off at white."""
     scene = bpy.context.scene
     scene.glanz.seed = scene.cycles.seed = seed
-    image_settings = scene.render.image_settings
-    if hasattr(image_settings, "media_type"):
-        image_settings.media_type = "IMAGE"
-    image_settings.file_format, image_settings.color_depth = "OPEN_EXR", "32"
-    path = OUT / "bench_picture.exr"
-    scene.render.filepath = str(path)
-    blender.press_f12(engine, write_still=True)
-    image = bpy.data.images.load(str(path))
-    pixels = np.empty(len(image.pixels), np.float32)
-    image.pixels.foreach_get(pixels)
-    bpy.data.images.remove(image)
-    path.unlink()
-    return np.minimum(pixels.reshape(SIDE, SIDE, 4), 1)
+    return np.minimum(blender.picture(engine), 1)
 
 
 if __name__ == "__main__":

@@ -62,6 +62,38 @@ ROWS = (
     ("memory", "peak", "peak, Cornell box 1920x1080 with 3 passes", "MB", None),
     ("memory", "over", "over what `import bpy` takes", "MB", 1000),
     *(
+        ("extremes", f"{case}_{engine}", f"{text}: {who}", "", bar)
+        for cases, bars in (
+            (
+                (
+                    ("box_tiny", "Cornell box, 1e-6 its size / as it is, block means differ by"),
+                    ("box_huge", "the same, 1e6 its size"),
+                    ("box_far", "the same, 2^20 m away"),
+                ),
+                (1e-4, 1e-6),
+            ),
+            (
+                (
+                    ("room", "closed white room, escapes of a million segments"),
+                    ("room_tiny", "the same, 1e-6 its size"),
+                    ("room_huge", "the same, 1e6 its size"),
+                    ("room_far", "the same, 2^20 m away"),
+                ),
+                (3, 3),
+            ),
+            (
+                (
+                    ("floor_0.01", "floor, sun 1e-2 rad above it, light lacking"),
+                    ("floor_0.001", "the same, 1e-3 rad"),
+                    ("floor_0.0001", "the same, 1e-4 rad"),
+                ),
+                (None, None),
+            ),
+        )
+        for case, text in cases
+        for engine, who, bar in zip(("glanz", "exact", "cycles"), ("Glanz, fast", "Glanz, exact", "Cycles"), (*bars, None), strict=True)
+    ),
+    *(
         ("large", f"{shading}_{key}", text, unit, bar)
         for shading in ("smooth", "flat")
         for key, text, unit, bar in (
