@@ -30,7 +30,7 @@ def main():
     for name in ENGINES:
         plain = moved_box(name, Matrix())
         for place, matrix in PLACES.items():
-            result[f"box_{place}_{name}"] = difference(moved_box(name, matrix), plain)
+            result[f"box_{place}_{name}"], result[f"box_{place}_median_{name}"] = differences(moved_box(name, matrix), plain)
             result[f"room_{place}_{name}"] = leaks(name, matrix)
         result[f"room_{name}"] = leaks(name, Matrix())
         for angle in GRAZING:
@@ -47,10 +47,14 @@ def moved_box(name, matrix):
     return picture(name)
 
 
-def difference(a, b):
-    """The greatest difference of the means of blocks, over the mean of all."""
-    blocks = [p.reshape(SIDE // BLOCK, BLOCK, SIDE // BLOCK, BLOCK, 3).mean(axis=(1, 3)) for p in (a, b)]
-    return float(np.abs(blocks[0] - blocks[1]).max() / b.mean())
+def differences(a, b):
+    """(the greatest, the median) difference of the means of blocks, over the mean of all.
+
+    A block is 16,384 paths: one that passes an edge on its other side, where it was closer than float32 tells, moves it by 1e-5 or more.
+    """
+    blocks = [p.reshape(SIDE // BLOCK, BLOCK, SIDE // BLOCK, BLOCK, 3).mean(axis=(1, 3), dtype=np.float64) for p in (a, b)]
+    away = np.abs(blocks[0] - blocks[1]) / b.mean(dtype=np.float64)
+    return float(away.max()), float(np.median(away))
 
 
 def leaks(name, matrix):

@@ -66,8 +66,10 @@ ROWS = (
         for cases, bars in (
             (
                 (
-                    ("box_tiny", "Cornell box, 1e-6 its size / as it is, block means differ by"),
+                    ("box_tiny", "Cornell box, 1e-6 its size / as it is, block means differ by at most"),
+                    ("box_tiny_median", "the same, the median block"),
                     ("box_huge", "the same, 1e6 its size"),
+                    ("box_huge_median", "the same, the median block"),
                     ("box_far", "the same, 2^20 m away"),
                 ),
                 (1e-4, 1e-6),
