@@ -97,6 +97,7 @@ OF_LOOKS = {
     "a material": _material,
     "the world": _world,
     "the bounces": lambda plane: _setting("max_depth", 0, 3),
+    "the precision": lambda plane: _setting("precision", "fast", "exact"),
 }
 """Changes that leave Embree's tree as it is."""
 OF_SHAPES = {

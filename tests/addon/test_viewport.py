@@ -101,8 +101,11 @@ def test_other_scenes_and_settings_are_compiled_and_keep_the_tree(session, monke
     deeper = h.replaced(SETTINGS, max_depth=3)
     session.look(At(), deeper)
     assert_same(finished(session), fresh(At(), dark, deeper))
-    assert len(calls) == 3
-    assert session._plan.world.accel is accel
+    exact = h.replaced(deeper, precision="exact")
+    session.look(At(), exact)
+    assert_same(finished(session), fresh(At(), dark, exact))
+    assert len(calls) == 4
+    assert session._plan.world.accel.embree is accel
 
 
 def test_what_asks_for_a_render_space_of_its_own_gets_it(session):
