@@ -18,6 +18,7 @@ _BOOKS = 40
 """Bytes of a path in single precision, of a tile that waits, of what a pixel of a film has for replicates and for each pass of ranks, and
 of one in work."""
 _CURE = "lower the resolution, render a border, or ask for fewer passes"
+_DIVIDED = "; or for fewer adaptive levels, smaller tiles or fewer threads, as all pixels may be divided"
 _KEPT = "; or do without an error target, a time limit, a checkpoint and rounds over the whole frame, for which all tiles are kept"
 
 
@@ -31,7 +32,7 @@ def require_room(plan, has_rounds, saves):
     x0, y0, x1, y1 = settings.region
     keeps = bool(has_rounds or saves or settings.error_target or settings.time_limit)
     what = f"{x1 - x0}x{y1 - y0} px with {_channels(settings.passes, plan.passes)} channels"
-    require(needed(plan, keeps, saves), what, _CURE + (_KEPT if keeps else ""))
+    require(needed(plan, keeps, saves), what, _CURE + (_KEPT if keeps else "") + (_DIVIDED if settings.adaptive_threshold else ""))
 
 
 def needed(plan, keeps, saves):
@@ -42,7 +43,9 @@ def needed(plan, keeps, saves):
     side = min(settings.tile_size or max(width, height), plan.tile.longest_side(settings))
     tiles = -(-width // side) * -(-height // side)
     workers = min(settings.threads or os.cpu_count() or 1, tiles)
-    in_work = workers * min(side, width) * min(side, height)
+    # All pixels may be divided.
+    cells = 4**settings.adaptive_levels if settings.adaptive_threshold else 1
+    in_work = workers * min(side, width) * min(side, height) * cells
     rows = sum(getattr(p, "rows", len(p.channels)) for p in plan.passes)
     ranks = sum(p.reduction == "ranks" for p in plan.passes)
     # With the numbers of its samples, their weight, and where its pixels are.

@@ -14,9 +14,11 @@ from glanz.engine import (
     Bitmap,
     Checkpoint,
     EnvironmentMap,
+    Material,
     MemoryShortage,
     Mesh,
     PointLight,
+    WhiteNoiseTexture,
     World,
     memory,
     prepare,
@@ -143,6 +145,20 @@ def test_a_picture_in_double_precision_takes_no_more_than_is_told_of_it(way):
     tracemalloc.stop()
     told = room.needed(plan, keeps=bool(ends or settings.time_limit), saves=False)
     assert 0.05 * told < peak <= told
+
+
+@pytest.mark.parametrize("passes", [("Combined",), ("Combined", "Normal", "Depth", "Diffuse Direct", "CryptoObject00")], ids=len)
+def test_a_picture_whose_pixels_are_all_divided_takes_what_is_told_of_it(passes):
+    """Noise that no division evens out."""
+    noisy = Material(name="noisy", emission=WhiteNoiseTexture())
+    settings = h.settings(width=128, height=128, tile_size=128, samples=1, adaptive_threshold=1e-6, adaptive_levels=3, passes=passes)
+    plan, _ = prepare(h.scene([h.thing(h.quad((0, 0, 0), (9, 0, 0), (0, 9, 0)), noisy)]), settings)
+    tracemalloc.start()
+    gathered(render_plan(plan), settings)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    told = room.needed(plan, keeps=False, saves=False)
+    assert 0.5 * told < peak <= told
 
 
 def grid(count):
