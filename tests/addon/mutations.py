@@ -37,7 +37,7 @@ LEFT = {
     "RenderSettings": {
         *("resolution_x", "resolution_y", "resolution_percentage", "engine", "filepath", "use_file_extension", "use_overwrite"),
         *("use_placeholder", "use_sequencer", "use_freestyle", "display_mode", "stamp_font_size", "use_stamp", "use_stamp_note"),
-        *("use_multiview", "use_lock_interface", "use_border", "use_crop_to_border"),
+        "use_lock_interface",
     },
 }
 FEW = ("samples", "branches", "motion_steps", "resolution_u", "resolution_v", "bevel_resolution", "levels", "render_levels", "count")
@@ -98,7 +98,8 @@ class Mutated:
             body.location.x = place
             body.keyframe_insert("location", frame=frame)
         scene = bpy.context.scene
-        scene.render.use_motion_blur = self.rng.random() < 0.3
+        for name, share in (("use_motion_blur", 0.3), ("use_multiview", 0.1), ("use_border", 0.1), ("use_persistent_data", 0.1)):
+            setattr(scene.render, name, self.rng.random() < share)
         for layer in (scene.view_layers[0], scene.view_layers[0].glanz):
             for p in layer.bl_rna.properties:
                 if p.identifier.startswith("use_pass_") and self.rng.random() < 0.2:
@@ -214,23 +215,27 @@ class Mutated:
 
 def fault_of(folder):
     """What is wrong with how the open file renders; None: it gives a finite picture, or is refused by a reason for a user."""
-    path = Path(folder) / "a.exr"
-    path.unlink(missing_ok=True)
-    scene = bpy.context.scene
+    for path in Path(folder).iterdir():
+        path.unlink()
     try:
-        blender.render(path)
+        blender.render(Path(folder) / "a.exr")
     except RuntimeError as error:
         told = str(error)
         is_named = not any(sign in told for sign in ("Glanz failed", "cannot be exported", "out of memory", "Traceback"))
         return None if is_named else told
-    if not path.exists():
-        return "neither a file nor an error"
+    # Each eye may have its own.
+    faults = [_fault_in(path) for path in Path(folder).iterdir()]
+    return next(filter(None, faults), None) if faults else "neither a file nor an error"
+
+
+def _fault_in(path):
     for name, values in blender.read_exr(path).items():
-        known = values[~np.isinf(values)] if name.endswith(("Confidence", "Standard Error")) else values
+        known = values[~np.isinf(values)] if "Confidence" in name or "Standard Error" in name else values
         if not np.isfinite(known).all():
             return f"{name} is not finite"
-    x, y = values.shape[1], values.shape[0]
-    return None if (x, y) == SIZE or scene.render.use_border else f"the picture has {x} x {y} px"
+        if values.shape[1::-1] != SIZE and not bpy.context.scene.render.use_crop_to_border:
+            return f"{name} has {values.shape[1]} x {values.shape[0]} px"
+    return None
 
 
 def run(seed, numbers):
