@@ -57,7 +57,7 @@ class GlanzRenderEngine(bpy.types.RenderEngine):
         """Called by Blender when all view layers of a frame are rendered, which may be none."""
         if self.persistent:
             self.persistent.kept.tidy()
-        if not self.has_rendered:
+        if not (self.has_rendered or self.is_preview or self.is_cancelled()):
             # Blender would save a picture that it does not have, which is a crash.
             message = "no view layer is rendered: switch on Use for Rendering in the View Layer properties"
             self.report({"ERROR"}, message)
