@@ -7,6 +7,7 @@ numbers stay stratified. Directions are about +z.
 import numpy as np
 
 from ..constants import INV_PI
+from .circle import on_circle
 
 _TWO_PI = 2 * np.pi
 
@@ -17,10 +18,9 @@ CENTRE = np.zeros((2, 1), np.float32)
 def square_to_disk(u2):
     """Uniform on the unit disk, (2, N): r = sqrt(u), phi = 2 pi v."""
     r = np.sqrt(u2[0])
-    phi = _TWO_PI * u2[1]
     disk = np.empty_like(u2)
-    np.multiply(r, np.cos(phi), out=disk[0])
-    np.multiply(r, np.sin(phi), out=disk[1])
+    for row, side in zip(disk, on_circle(u2[1])):
+        np.multiply(r, side, out=row)
     return disk
 
 
@@ -44,7 +44,7 @@ def square_to_cosine_hemisphere_pdf(w):
 
 def square_to_uniform_hemisphere(u2):
     """Directions with density 1 / (2 pi): cos theta = 1 - u."""
-    return _about_axis(u2[0], _TWO_PI * u2[1])
+    return _about_axis(u2[0], u2[1])
 
 
 def square_to_uniform_hemisphere_pdf(w):
@@ -54,7 +54,7 @@ def square_to_uniform_hemisphere_pdf(w):
 
 def square_to_cone(u2, one_minus_cos):
     """Uniform within a cone about +z whose half-angle has 1 - cos = `one_minus_cos` (N,) in (0, 2]."""
-    return _about_axis(u2[0] * one_minus_cos, _TWO_PI * u2[1])
+    return _about_axis(u2[0] * one_minus_cos, u2[1])
 
 
 def square_to_cone_pdf(one_minus_cos):
@@ -68,7 +68,7 @@ def square_to_cosine_power(u2, exponent):
 
     1 - cos = -expm1(log1p(-u) / (n + 1)) keeps its digits for n = 1e6, where float32 cannot hold the cosine.
     """
-    return _about_axis(-np.expm1(np.log1p(-u2[0]) / (exponent + 1)), _TWO_PI * u2[1])
+    return _about_axis(-np.expm1(np.log1p(-u2[0]) / (exponent + 1)), u2[1])
 
 
 def square_to_cosine_power_pdf(w, exponent):
@@ -106,7 +106,8 @@ def square_to_polygon_pdf(corners):
     return 2 / (corners * np.sin(_TWO_PI / corners))
 
 
-def _about_axis(one_minus_cos, phi):
+def _about_axis(one_minus_cos, turns):
     # sin^2 = (1 - cos)(1 + cos): no cancellation near the axis.
     sin = np.sqrt(one_minus_cos * (2 - one_minus_cos))
-    return np.stack(np.broadcast_arrays(sin * np.cos(phi), sin * np.sin(phi), 1 - one_minus_cos))
+    x, y = on_circle(turns)
+    return np.stack(np.broadcast_arrays(sin * x, sin * y, 1 - one_minus_cos))

@@ -40,6 +40,7 @@ PLAIN = {
     "integrators/path.py",
     "lights/point.py",
     "maths/bulbs.py",
+    "maths/circle.py",
     "maths/frames.py",
     "maths/hashing.py",
     "maths/strata.py",
