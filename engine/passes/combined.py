@@ -18,4 +18,5 @@ class Combined:
 
     @staticmethod
     def gather(film):
-        return np.concatenate((film.radiance, 1 - film.clear))
+        # A surface may hold out more than it covers; less than nothing of it is not there.
+        return np.concatenate((film.radiance, np.maximum(1 - film.clear, 0)))

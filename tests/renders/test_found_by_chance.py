@@ -81,3 +81,11 @@ def test_samples_that_count_more_than_once_stay_finite_at_the_limit_of_float32(p
     way = h.settings(samples=16, pixel_filter="mitchell", filter_width=4.0, passes=passes)
     image = render_image(h.scene(world=3.4e38), way)
     np.testing.assert_allclose(image.passes["Combined"][..., :3], 3.4e38, rtol=1e-6)
+
+
+def test_what_holds_out_more_than_it_covers_is_not_less_than_clear():
+    """Nine tenths of the light pass, and three are held out."""
+    veil = Material(name="veil", alpha=0.1, holdout=(0.3, 0.3, 0.3))
+    scene = h.scene([h.thing(h.quad((0, 0, 0), (9, 0, 0), (0, 9, 0)), veil)])
+    image = render_image(scene, h.settings(film_transparent=True))
+    np.testing.assert_array_equal(image.passes["Combined"], 0)
