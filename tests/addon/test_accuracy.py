@@ -45,7 +45,9 @@ def children(monkeypatch):
 @pytest.fixture
 def in_front(monkeypatch):
     """Blender with a window, whose timers the test is."""
-    monkeypatch.setattr(accuracy.bpy, "app", SimpleNamespace(background=False, binary_path="", timers=bpy.app.timers))
+    monkeypatch.setattr(
+        accuracy.bpy, "app", SimpleNamespace(background=False, binary_path="", timers=bpy.app.timers, handlers=bpy.app.handlers)
+    )
 
 
 @pytest.fixture
