@@ -14,7 +14,7 @@ INLINE = 16
 
 
 class ArrayWriter:
-    """Turns arrays into JSON; `add(name, bytes)` receives each distinct large one once."""
+    """Turns arrays into JSON; `add(name, bytes)` receives each distinct large one once, and keeps none."""
 
     def __init__(self, add):
         self._add = add
@@ -36,7 +36,9 @@ class ArrayWriter:
             self._names[key] = f"arrays/{len(self._names)}.npy"
             buffer = io.BytesIO()
             np.lib.format.write_array(buffer, array, version=(1, 0), allow_pickle=False)
-            self._add(self._names[key], buffer.getbuffer())
+            # Released also where writing fails: Python cannot free a buffer that is looked at.
+            with buffer.getbuffer() as data:
+                self._add(self._names[key], data)
         return {"npy": self._names[key]}
 
 
