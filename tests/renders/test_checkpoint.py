@@ -36,14 +36,14 @@ class Killed(Exception):
 
 
 def rendered(settings, ends, checkpoint=None, killed_after=None):
-    """{pass: (H, W, C)}; Killed after so many pieces of progress that were not empty."""
-    steps = 0
+    """{pass: (H, W, C)}; Killed after so many tiles, with the pieces of progress that they came in."""
+    tiles = steps = 0
 
     def on_progress(progress):
-        nonlocal steps
-        steps += bool(progress.tiles)
-        if killed_after is not None and steps > killed_after:
-            raise Killed
+        nonlocal tiles, steps
+        tiles, steps = tiles + len(progress.tiles), steps + bool(progress.tiles)
+        if killed_after is not None and tiles > killed_after:
+            raise Killed(steps)
 
     more = {"checkpoint": checkpoint} if checkpoint else {}
     passes, _, reached = gathered(render(scenes.everything(), settings, ends, **more), settings, on_progress)
@@ -57,11 +57,12 @@ def test_a_render_goes_on_to_the_same_bits(way, killed_after, tmp_path):
     settings = h.settings(**SETTINGS | {"passes": PASSES} | changes)
     whole, ended = rendered(settings, ends)
     path = tmp_path / "a.checkpoint"
-    with pytest.raises(Killed):
+    with pytest.raises(Killed) as killed:
         rendered(settings, ends, Checkpoint(path, scenes.everything(), settings, 1e-6), killed_after)
     is_saved = path.exists()
     parts, reached = rendered(settings, ends, Checkpoint(path, scenes.everything(), settings, 1e-6))
-    assert is_saved or killed_after == 1
+    # Nothing is saved before the first is seen.
+    assert is_saved or killed.value.args == (1,)
     assert (reached.samples, reached.ended_by) == (ended.samples, ended.ended_by)
     for key in settings.passes:
         assert h.same_bits(whole[key], parts[key]), key
