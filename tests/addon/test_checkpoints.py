@@ -38,11 +38,12 @@ def pixels(path):
 
 
 def cancelled_after(monkeypatch, tiles):
-    """A render that is cancelled when it has written so many tiles, with a checkpoint at each of them."""
-    written, write = [], results.write_tile
+    """A render that is cancelled when it has written so many tiles, which may come at once, and a checkpoint after them."""
+    written, write, saved, save = [], results.write_tile, [], Checkpoint.save
     monkeypatch.setattr(Checkpoint, "is_due", lambda self: True)
     monkeypatch.setattr(results, "write_tile", lambda *where: (written.append(1), write(*where)))
-    monkeypatch.setattr(render_engine.GlanzRenderEngine, "is_cancelled", lambda self: len(written) >= tiles)
+    monkeypatch.setattr(render_engine.GlanzRenderEngine, "is_cancelled", lambda self: len(written) >= tiles and bool(saved))
+    monkeypatch.setattr(Checkpoint, "save", lambda self, state: (save(self, state), saved.append(1)))
 
 
 def test_what_was_cancelled_goes_on(scene, tmp_path, told, monkeypatch):
