@@ -118,9 +118,9 @@ class GLANZ_RENDER_PT_light_paths(GlanzPanel, bpy.types.Panel):
         for name, integrators in _OF_INTEGRATORS.items():
             if settings.integrator in integrators:
                 column.prop(settings, name)
-        clamps = self.layout.column(heading="Clamp", align=True)
-        clamps.prop(settings, "clamp_direct", text="Direct Light")
-        clamps.prop(settings, "clamp_indirect", text="Indirect Light")
+        clamps = self.column()
+        clamps.prop(settings, "clamp_direct")
+        clamps.prop(settings, "clamp_indirect")
 
 
 _OF_INTEGRATORS = {
