@@ -50,9 +50,9 @@ def main(words=None, workers=None):
 
 
 def measured(name, seeds, side):
-    """{"reached", "stated", "samples": lists over the seeds} of a sample scene; errors over `TARGET`.
+    """{"reached", "stated", "samples": lists over the seeds} of a sample scene, errors over `TARGET`; and "most", MOST.
 
-    One that needs more than `MOST` samples has one picture, and nothing "reached".
+    One that needs more than so many samples has one picture, and nothing "reached".
     """
     scene, settings = small_scenes.load(name, side, side * 3 // 4)
     settings = replace(curve.plain(settings), integrator="path", sampler="sobol", samples=MOST, replicates=0, error_target=TARGET)
@@ -68,6 +68,7 @@ def measured(name, seeds, side):
         "reached": [error / TARGET for error in errors(np.stack(pictures))] if reached.ended_by == "error" else [],
         "stated": [end.error / TARGET for end in ends],
         "samples": [end.samples for end in ends],
+        "most": MOST,
     }
 
 
@@ -90,7 +91,7 @@ def row(name, found):
     """A line of the table."""
     samples, stated = f"{np.mean(found['samples']):,.0f}", f"{np.mean(found['stated']):.2f}"
     if not found["reached"]:
-        return f"| {name} | not within {MOST:,} samples | | {stated} | | {samples} |"
+        return f"| {name} | not within {found['most']:,} samples | | {stated} | | {samples} |"
     low, middle, high = np.percentile(found["reached"], (5, 50, 95))
     return f"| {name} | {middle:.2f} | {low:.2f} to {high:.2f} | {stated} | {inside(found)} of {len(found['reached'])} | {samples} |"
 
@@ -106,7 +107,7 @@ def page(results):
         "",
         f"`make bench-targets` path traces sample scenes, {facts['side']} pixels wide, with an error target of {100 * TARGET:g} %",
         f"and {facts['seeds']} seeds. {pictures[0]} of {pictures[1]} pictures reached {LOWEST} to {HIGHEST} times the target.",
-        f"{len(ended)} of the {len(scenes)} scenes need no more than {MOST:,} samples; in {good} of these 19 of 20 pictures did.",
+        f"{len(ended)} of the {len(scenes)} scenes got that far with the samples they may have; in {good} of these 19 of 20 pictures did.",
         "Errors are in units of the target. Each picture is held against the mean of the others, a reference of 19 times as many",
         "samples whose own error is taken off: that is the noise; that there is no bias is for tests to say. In so small pictures a",
         "single pixel that light is rarely found for counts for much.",

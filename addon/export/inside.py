@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...engine import Dielectric, Math, Medium, RelativeIndex, RoughRefraction
+from ...engine import Dielectric, LambertTransmission, Math, Medium, PhongTransmission, RelativeIndex, RoughRefraction
 from .colours import typical, varies
 from .findings import IGNORED
 from .nodes import input_by_identifier
@@ -40,8 +40,10 @@ def with_one_index(lobes):
     """`lobes` of which all scale radiance by one index of refraction, that of what is behind them: the first one's, on average.
 
     Else light that came in by one index and leaves by another, where shaders are mixed or the index varies, would be won or lost.
+    What lets light through without an index, as paper does, scales none: beside it that of a vacuum, by which nothing is scaled.
     """
-    inside = next((typical(_index(lobe)) for lobe in lobes if _has_index(lobe)), 1.0)
+    indices = [typical(_index(lobe)) for lobe in lobes if _has_index(lobe)]
+    inside = indices[0] if indices and not any(isinstance(lobe, LambertTransmission | PhongTransmission) for lobe in lobes) else 1.0
     return tuple(replace(lobe, etendue=_etendue(_index(lobe), inside)) if _has_index(lobe) else lobe for lobe in lobes)
 
 

@@ -109,6 +109,6 @@ def _left(exponent, cos):
     i, j = np.minimum(x.astype(np.intp), _WIDTHS - 2), np.minimum(y.astype(np.intp), _COSINES - 2)
     a, b, table = x - i.astype(x.dtype), y - j.astype(y.dtype), _table()
     first = i * _COSINES + j
-    lower = (1 - b) * table.take(first) + b * table.take(first + 1)
-    upper = (1 - b) * table.take(first + _COSINES) + b * table.take(first + _COSINES + 1)
+    lower = (1 - b) * table.take(first, mode="clip") + b * table.take(first + 1, mode="clip")
+    upper = (1 - b) * table.take(first + _COSINES, mode="clip") + b * table.take(first + _COSINES + 1, mode="clip")
     return (1 - a) * lower + a * upper

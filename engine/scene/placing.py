@@ -14,18 +14,18 @@ def placed(at, coordinates, scale=1.0, w=0.0, dimensions=3):
     One dimension is `w`, four are the three of `coordinates` and w, all times `scale`: inputs, see `Points.value`.
     Scales that vary are taken as constant over a footprint, and w as well.
     """
-    scale = at.value(scale)
+    (scale,) = numbers(at, scale)
     if dimensions == 1:
-        return at.value(w) * scale, None
+        return at.value(w)[:1] * scale, None
     p, axes = at.look_up(coordinates)
     p = p[:dimensions] * scale
     if dimensions == 4:
-        p = np.concatenate((p, np.broadcast_to(at.value(w) * scale, p[:1].shape)))
+        p = np.concatenate((p, np.broadcast_to(at.value(w)[:1] * scale, p[:1].shape)))
     if axes is None:
         return p, None
     # Both half-axes of the footprint: half of its longest extent.
     squares = [x * x for axis in axes for x in axis[:dimensions]]
-    return p, np.sqrt(sum(squares[1:], squares[0])) * np.abs(scale[0])
+    return p, np.sqrt(sum(squares[1:], squares[0])) * np.abs(scale)
 
 
 def numbers(at, *inputs):

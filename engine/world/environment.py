@@ -114,7 +114,9 @@ class Environment:
 
     def _pdf(self, probability, v):
         height, width = self.shape
-        return np.maximum(probability * np.float32(height * width) * square_to_direction_pdf(v), _LEAST_PDF)
+        # At the poles a texel has hardly any solid angle.
+        with np.errstate(over="ignore"):
+            return np.maximum(probability * np.float32(height * width) * square_to_direction_pdf(v), _LEAST_PDF)
 
 
 def _weights(world, flux):

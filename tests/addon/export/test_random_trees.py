@@ -96,6 +96,28 @@ def test_light_from_nowhere_is_noticed():
     assert gains(blender.export()[0])
 
 
+@pytest.mark.parametrize("shader", ["ShaderNodeBsdfRefraction", "ShaderNodeBsdfGlass"])
+def test_paper_beside_glass_gives_no_light(shader):
+    """What is inside of glass is brighter by the square of its index, and must not get out as it is: found by chance, at 1.14."""
+    _, tree, surface = stage()
+    add = tree.nodes.new("ShaderNodeAddShader")
+    tree.links.new(add.outputs[0], surface)
+    for socket, name in zip(add.inputs, (shader, "ShaderNodeBsdfTranslucent")):
+        tree.links.new(blender.add_node(tree, name, Color=(1, 1, 1, 1)).outputs[0], socket)
+    assert not gains(blender.export()[0])
+
+
+def test_a_normal_that_is_no_number_gives_a_finite_picture():
+    """Found by chance: the table of what a rough boundary lets through was looked up anywhere."""
+    _, tree, surface = stage()
+    mapping = blender.add_node(tree, "ShaderNodeMapping", Location=(np.inf, -np.inf, 0.0), Rotation=(1.0, 0.0, 1.0))
+    mapping.vector_type = "TEXTURE"
+    glass = blender.add_node(tree, "ShaderNodeBsdfGlass", Roughness=1.0)
+    tree.links.new(mapping.outputs[0], glass.inputs["Normal"])
+    tree.links.new(glass.outputs[0], surface)
+    assert np.isfinite(picture(blender.export()[0])).all()
+
+
 @pytest.mark.parametrize(("ior", "used"), [(-3.0, 0.001), (0.0, 0.001), (1e6, 1000.0), (1.5, 1.5)])
 @pytest.mark.parametrize("name", ["ShaderNodeBsdfGlass", "ShaderNodeBsdfPrincipled"])
 def test_an_index_of_refraction_beyond_all_reason_is_cut_off_and_said(name, ior, used):

@@ -141,6 +141,14 @@ def test_the_density_is_told_alike_by_sample_and_hit_and_integrates_to_one(name,
 
 
 @pytest.mark.parametrize("way", WAYS)
+def test_a_direction_at_the_pole_has_no_light_and_no_end_of_density(way):
+    """There the density [sr^-1] is beyond float32."""
+    u2 = np.stack((np.full(4, 0.5), (0.0, 1e-45, 1e-40, 1e-20))).astype(np.float32)
+    _, _, E, pdf = environment("hot pole", way).sample(None, u2)
+    assert np.isfinite(E).all() and (pdf > 0).all()
+
+
+@pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize("name", PICTURES)
 @chance.fresh
 def test_the_mean_of_samples_is_the_light_of_the_whole_sky(name, way):
