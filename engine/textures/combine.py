@@ -27,5 +27,5 @@ class Combine:
             raise SceneError(f"{owner}: model of Combine is '{self.model}', allowed: {', '.join(TO_RGB)}")
 
     def eval(self, at):
-        parts = np.broadcast_arrays(*(at.value(x) for x in (self.x, self.y, self.z)))
+        parts = np.broadcast_arrays(*(at.value(x)[:1] for x in (self.x, self.y, self.z)))
         return TO_RGB[self.model](np.concatenate(parts))

@@ -5,6 +5,7 @@ import pytest
 
 from glanz.engine import (
     AreaLight,
+    Combine,
     Coordinates,
     Dielectric,
     EnvironmentMap,
@@ -111,3 +112,9 @@ def test_a_pattern_whose_scale_is_three_numbers_takes_the_first(dimensions):
     scene = h.scene([h.thing(h.quad(), Material(name="noisy", lobes=(Lambert(noise),)))], world=1.0)
     image = render_image(scene, h.settings())
     assert np.isfinite(image.passes["Combined"]).all() and image.passes["Combined"][..., :3].any()
+
+
+def test_a_part_of_a_vector_that_is_three_numbers_is_the_first():
+    scene = h.scene([h.thing(h.quad(), Material(name="odd", lobes=(Lambert(Combine((0.5, 0.6, 0.7), 0.2, 0.3)),)))], world=1.0)
+    plain = h.scene([h.thing(h.quad(), Material(name="odd", lobes=(Lambert(Combine(0.5, 0.2, 0.3)),)))], world=1.0)
+    assert h.same_bits(h.pixels(scene, h.settings()), h.pixels(plain, h.settings()))
