@@ -16,11 +16,11 @@ def placed(at, coordinates, scale=1.0, w=0.0, dimensions=3):
     """
     (scale,) = numbers(at, scale)
     if dimensions == 1:
-        return at.value(w)[:1] * scale, None
+        return numbers(at, w)[0][None] * scale, None
     p, axes = at.look_up(coordinates)
     p = p[:dimensions] * scale
     if dimensions == 4:
-        p = np.concatenate((p, np.broadcast_to(at.value(w)[:1] * scale, p[:1].shape)))
+        p = np.concatenate((p, np.broadcast_to(numbers(at, w)[0] * scale, p[:1].shape)))
     if axes is None:
         return p, None
     # Both half-axes of the footprint: half of its longest extent.
@@ -29,7 +29,7 @@ def placed(at, coordinates, scale=1.0, w=0.0, dimensions=3):
 
 
 def numbers(at, *inputs):
-    """Inputs that are numbers, as float32 (1,) or (N,) each."""
+    """Inputs that are numbers, as float32 (1,) or (N,) each; of three numbers, which may stand in their place, the first."""
     return [at.value(x)[0] for x in inputs]
 
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..maths.tables import check_table, look_up
+from ..scene.placing import numbers
 from . import registry
 
 
@@ -31,4 +32,5 @@ class ColourRamp:
         check_table(self.table, f"{owner}: table of Color Ramp")
 
     def eval(self, at):
-        return look_up(self.table, at.value(self.factor), self.is_smooth)
+        (factor,) = numbers(at, self.factor)
+        return look_up(self.table, factor[None], self.is_smooth)

@@ -6,6 +6,7 @@ import numpy as np
 
 from ..errors import SceneError
 from ..maths.colour_models import TO_RGB
+from ..scene.placing import numbers
 from . import registry
 
 
@@ -27,5 +28,4 @@ class Combine:
             raise SceneError(f"{owner}: model of Combine is '{self.model}', allowed: {', '.join(TO_RGB)}")
 
     def eval(self, at):
-        parts = np.broadcast_arrays(*(at.value(x)[:1] for x in (self.x, self.y, self.z)))
-        return TO_RGB[self.model](np.concatenate(parts))
+        return TO_RGB[self.model](np.stack(np.broadcast_arrays(*numbers(at, self.x, self.y, self.z))))

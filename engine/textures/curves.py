@@ -41,7 +41,6 @@ class Curves:
 
     def eval(self, at):
         value, factor = at.value(self.value), at.value(self.factor)
-        if len(self.table) == 3:
-            value = as_vector(value)
+        value = as_vector(value) if len(self.table) == 3 else value[:1]
         place = (value - np.float32(self.low)) / np.float32(self.high - self.low)
         return (1 - factor) * value + factor * look_up(self.table, place, goes_on=self.goes_on)

@@ -77,7 +77,7 @@ class VoronoiTexture:
         if feature == "distance to edge":
             return {"distance": fractal_edges(p, shape, *scales)[None]}
         distance, colour, position = fractal_cells(p, feature, shape, *scales)
-        scale = at.value(self.scale)
+        (scale,) = numbers(at, self.scale)
         position = np.divide(position, scale, out=np.zeros_like(position), where=np.broadcast_to(scale != 0, position.shape))
         found = {"distance": distance[None], "color": colour}
         if self.dimensions > 1:

@@ -3,21 +3,7 @@
 import numpy as np
 import pytest
 
-from glanz.engine import (
-    AreaLight,
-    Combine,
-    Coordinates,
-    Dielectric,
-    EnvironmentMap,
-    Lambert,
-    Lens,
-    Material,
-    Medium,
-    Mesh,
-    NoiseTexture,
-    World,
-    render_image,
-)
+from glanz.engine import AreaLight, Dielectric, EnvironmentMap, Lens, Material, Medium, Mesh, World, render_image
 from glanz.engine.wavefront import film
 from glanz.tests import helpers as h
 
@@ -103,18 +89,3 @@ def test_what_holds_out_more_than_it_covers_is_not_less_than_clear():
     scene = h.scene([h.thing(h.quad((0, 0, 0), (9, 0, 0), (0, 9, 0)), veil)])
     image = render_image(scene, h.settings(film_transparent=True))
     np.testing.assert_array_equal(image.passes["Combined"], 0)
-
-
-@pytest.mark.parametrize("dimensions", [1, 2, 3, 4])
-def test_a_pattern_whose_scale_is_three_numbers_takes_the_first(dimensions):
-    """As other inputs that are numbers do; files may say anything."""
-    noise = NoiseTexture(scale=Coordinates(), w=Coordinates(), dimensions=dimensions)
-    scene = h.scene([h.thing(h.quad(), Material(name="noisy", lobes=(Lambert(noise),)))], world=1.0)
-    image = render_image(scene, h.settings())
-    assert np.isfinite(image.passes["Combined"]).all() and image.passes["Combined"][..., :3].any()
-
-
-def test_a_part_of_a_vector_that_is_three_numbers_is_the_first():
-    scene = h.scene([h.thing(h.quad(), Material(name="odd", lobes=(Lambert(Combine((0.5, 0.6, 0.7), 0.2, 0.3)),)))], world=1.0)
-    plain = h.scene([h.thing(h.quad(), Material(name="odd", lobes=(Lambert(Combine(0.5, 0.2, 0.3)),)))], world=1.0)
-    assert h.same_bits(h.pixels(scene, h.settings()), h.pixels(plain, h.settings()))
