@@ -277,7 +277,7 @@ class GlanzSceneSettings(bpy.types.PropertyGroup):
                 "exact",
                 "Exact",
                 "Double precision, and where rays meet triangles is measured again: no self-hits at needle-shaped triangles, and lengths "
-                "to 1 in 10 million million. Takes a third to half as much time again, 50 bytes more for each triangle, "
+                "to 1 in 10 million million. Takes about a third more time, 50 bytes more for each triangle, "
                 "and 20 MB for each thread",
             ),
         ),

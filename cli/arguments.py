@@ -55,7 +55,7 @@ def _add_render(commands):
         ("error-target", float, "end where the standard error of the picture is this small, such as 0.01; 0: none"),
         ("error-measure", str, "of what: relative, radiance relative to its mean, or lightness, as a share of that of white"),
         ("time-limit", float, "end after so many seconds of rendering, each pixel with a sample at least; 0: none"),
-        ("precision", str, "fast, single precision, or exact, double precision: for about half as much time again"),
+        ("precision", str, "fast, single precision, or exact, double precision, for about a third more time"),
         ("threads", int, "worker threads; 0: one per processor"),
         ("adaptive-threshold", float, "divide pixels where colours differ by more, from 0, never, to 1"),
         ("adaptive-levels", int, "how often, from 1 to 6, in four parts each time"),

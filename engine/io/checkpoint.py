@@ -19,7 +19,7 @@ from .records import Encoder
 from .scene_file import DAMAGED, add_entry, check_entries
 
 FORMAT = "glanz checkpoint"
-VERSION = 3
+VERSION = 2
 HEAD = "checkpoint.json"
 SECONDS = 60.0
 """Between two of them: what a crash may cost."""

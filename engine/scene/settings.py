@@ -129,7 +129,7 @@ class Settings:
                 raise SceneError(f"setting {name} is {value!r} W m^-2 sr^-1, allowed: from 0, which is none")
         if self.error_measure not in ERROR_MEASURES:
             raise SceneError(f"setting error_measure is {self.error_measure!r}, allowed: {', '.join(ERROR_MEASURES)}")
-        if self.precision not in PRECISIONS:
+        if self.precision not in tuple(PRECISIONS):
             raise SceneError(f"setting precision is {self.precision!r}, allowed: {', '.join(PRECISIONS)}")
         if not (isinstance(self.time_limit, (int, float)) and 0.0 <= self.time_limit < math.inf):
             raise SceneError(f"setting time_limit is {self.time_limit!r} s, allowed: from 0, which is none")

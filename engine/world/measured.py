@@ -52,7 +52,10 @@ class Lost:
     def since(self, before):
         """A warning of those that there are more than `before`, if any."""
         more = self.count - before
-        told = f"{more} rays met only triangles that double precision does not confirm, in {1 + MOST_TRIES} searches, and passed them all"
+        told = (
+            f"{more} rays met only triangles that double precision does not confirm, in {1 + MOST_TRIES} searches, "
+            "and passed them all: look for needle-shaped ones"
+        )
         return (SceneWarning(told),) if more else ()
 
 

@@ -7,6 +7,7 @@ import pytest
 
 from glanz.engine import INTEGRATORS, Mesh, PointLight, Scene, rendering
 from glanz.engine.maths.hashing import mix
+from glanz.engine.scene.settings import PRECISIONS
 from glanz.engine.wavefront import numbers, visibility
 from glanz.engine.wavefront.film import Film
 from glanz.engine.wavefront.loop import few_wait
@@ -18,14 +19,22 @@ FULL = h.replaced(SMALL, passes=("Combined", "Depth", "Normal"))
 
 
 @pytest.fixture(scope="module")
-def reference():
-    return h.pixels(scenes.everything(), SMALL)
+def references():
+    """{precision: the picture of everything}."""
+    return {precision: h.pixels(scenes.everything(), h.replaced(SMALL, precision=precision)) for precision in PRECISIONS}
 
 
+@pytest.fixture(scope="module")
+def reference(references):
+    return references["fast"]
+
+
+@pytest.mark.parametrize("precision", PRECISIONS)
 @pytest.mark.parametrize("k", [-40, -20, 20, 40])
-def test_a_power_of_two_as_scale_changes_no_bit(reference, k):
+def test_a_power_of_two_as_scale_changes_no_bit(references, k, precision):
     """A2: geometry, camera and lights scaled by 2^k, intensities by 4^k."""
-    assert h.same_bits(h.pixels(scenes.everything(scale=2.0**k), SMALL), reference)
+    scaled = h.pixels(scenes.everything(scale=2.0**k), h.replaced(SMALL, precision=precision))
+    assert h.same_bits(scaled, references[precision])
 
 
 @pytest.mark.parametrize("scale", [1e-6, 1e6])
@@ -37,9 +46,11 @@ def test_any_other_scale_changes_the_picture_by_rounding_only(reference, scale):
 
 
 @pytest.mark.parametrize("offset", [(2.0**20, 0, 0), (-(2.0**20), 2.0**18, 2.0**21)], ids=str)
-def test_an_exact_shift_changes_no_bit(reference, offset):
+@pytest.mark.parametrize("precision", PRECISIONS)
+def test_an_exact_shift_changes_no_bit(references, offset, precision):
     """A3: all coordinates are multiples of 2^-10, moved by 2^20."""
-    assert h.same_bits(h.pixels(scenes.everything(offset=offset), SMALL), reference)
+    shifted = h.pixels(scenes.everything(offset=offset), h.replaced(SMALL, precision=precision))
+    assert h.same_bits(shifted, references[precision])
 
 
 def test_shifting_catches_a_world_that_is_not_centred_on_the_camera(reference, monkeypatch):

@@ -95,6 +95,7 @@ def test_settings_cannot_be_changed():
         ("filter_textures", None),
         ("film_transparent", 1),
         ("precision", "double"),
+        ("precision", ["exact"]),
     ],
 )
 def test_senseless_choices_are_refused_by_name(name, value):
