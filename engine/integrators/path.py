@@ -1,8 +1,8 @@
 """Path tracing: one ray goes on from every surface point (Kajiya 1986), and one goes to a light."""
 
+from ..dimensions import Dimension
 from ..wavefront.continuation import go_on
 from ..wavefront.direct import add_direct_light, to_one_light
-from ..wavefront.numbers import Dimension
 from . import registry
 
 

@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from ..dimensions import Dimension
 from ..wavefront.continuation import go_on
 from ..wavefront.direct import to_one_light
-from ..wavefront.numbers import Dimension
 from . import registry
 
 

@@ -5,9 +5,9 @@ The lecture's first estimator, 2 pi / N sum f L cos; to see what importance samp
 
 import numpy as np
 
+from ..dimensions import Dimension
 from ..wavefront.continuation import go_on
 from ..wavefront.direct import to_one_light
-from ..wavefront.numbers import Dimension
 from . import registry
 
 

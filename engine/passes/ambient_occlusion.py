@@ -2,10 +2,10 @@
 
 import numpy as np
 
+from ..dimensions import Dimension
 from ..maths.frames import to_world
 from ..maths.vectors import dot
 from ..maths.warps import square_to_cosine_hemisphere
-from ..wavefront.numbers import Dimension
 from ..wavefront.passing import opacity
 from ..wavefront.recording import FirstHit
 from . import registry

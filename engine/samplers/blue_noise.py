@@ -36,14 +36,14 @@ class BlueNoise:
 
     @staticmethod
     def one(key, sample, dimension, samples):
-        return to_unit(_points(key, sample, dimension, samples, 1)[0])
+        return to_unit(_points(key, sample, dimension, samples, (0,))[0])
 
     @staticmethod
     def two(key, sample, dimension, samples):
-        return to_unit(_points(key, sample, dimension, samples, 2))
+        return to_unit(_points(key, sample, dimension, samples, (0, 1)))
 
 
-def _points(key, sample, dimension, samples, coordinates):
+def _points(key, sample, dimension, samples, axes):
     # As many samples as there are bits for; a curve too long for the rest is cut into shorter ones.
     sample_bits = (samples - 1).bit_length()
     curve_bits = np.uint32(min(_BITS, 32 - sample_bits))
@@ -51,7 +51,7 @@ def _points(key, sample, dimension, samples, coordinates):
     # The block leaves at the upper end where there are fewer bits; else it numbers sequences as well as the hash does.
     index = key << np.uint32(sample_bits)
     index |= sample
-    return points(index, sequence, coordinates)
+    return points(index, sequence, axes)
 
 
 def _turned(place, block):

@@ -7,10 +7,10 @@ import dataclasses
 
 import numpy as np
 
+from ..dimensions import Dimension
 from ..maths.hashing import mix_int
 from .continuation import leaving, thinned
 from .direct import add_direct_light, to_one_light
-from .numbers import Dimension
 
 _FEWER = 4
 """Each bounce has so many times fewer branches than the one before."""

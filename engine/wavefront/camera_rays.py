@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from ..dimensions import Dimension
 from ..maths.warps import square_to_disk, square_to_polygon
-from .numbers import Dimension, seed_of
+from .numbers import seed_of
 from .records import Rays
 from .signed_filter import negative_samples, offsets
 

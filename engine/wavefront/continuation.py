@@ -3,8 +3,8 @@
 import numpy as np
 
 from ..arrays import Columns
+from ..dimensions import Dimension
 from ..maths.vectors import dot
-from .numbers import Dimension
 from .records import Rays
 
 ROULETTE_DEPTH = 1

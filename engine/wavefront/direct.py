@@ -6,10 +6,10 @@ import numpy as np
 
 from ..arrays import gather
 from ..constants import EPS32
+from ..dimensions import Dimension
 from ..maths.vectors import dot, length
 from .continuation import leaving
 from .mis import power_heuristic
-from .numbers import Dimension
 
 SHORTENED = np.float32(1 - 4 * EPS32)
 """Shadow rays end before the light, by more than the rounding of their length."""

@@ -11,8 +11,8 @@ import dataclasses
 
 import numpy as np
 
+from ..dimensions import Dimension
 from ..maths.spectrum import CHANNELS, place, sample_wavelength
-from .numbers import Dimension
 
 _CHANNEL_PLACES = place(CHANNELS)
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from ..dimensions import Dimension
 from .direct import arriving
-from .numbers import Dimension
 
 MOST_LIGHTS = 64
 """Up to so many lights are all asked at every hit; of more, one is chosen at random, and there is noise."""

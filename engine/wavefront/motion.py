@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 
 from ..constants import EPS32
+from ..dimensions import Dimension
 from ..maths import patches
 from ..maths.vectors import dot
 from ..world.interaction import START_ULPS, interact
 from . import visibility
 from .clip import range_along
 from .mis import power_heuristic
-from .numbers import Dimension
 
 TIME = "time"
 """The column of the time (N,) in [0, 1) that paths carry, from the opening of the shutter to its closing."""

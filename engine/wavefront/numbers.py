@@ -1,31 +1,13 @@
-"""Which random number is used for what: dimensions have names, so that one feature does not reshuffle the others."""
+"""The random numbers of paths: of a sampler, of a pixel and a sample, for a dimension at a depth."""
 
 from dataclasses import dataclass, replace
-from enum import IntEnum
 from functools import lru_cache
 
 import numpy as np
 
+from ..dimensions import Dimension, place
 from ..maths.hashing import mix, mix_int
 from ..samplers.random import Random
-
-
-class Dimension(IntEnum):
-    """Numbers for one path, and for each of its bounces (from LIGHT on)."""
-
-    FILTER = 0
-    LENS = 1
-    TIME = 2
-    WAVELENGTH = 3
-    LIGHT = 8
-    LOBE = 9
-    DIRECTION = 10
-    ROULETTE = 11
-    PASS = 12
-    OCCLUSION = 13
-
-
-_PER_BOUNCE = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,13 +38,9 @@ class Numbers:
         return self._given(self.sampler.two, rays, dimension)
 
     def _given(self, draw, rays, dimension):
-        numbers = draw(rays.key, rays.sample, _place(rays, dimension), self.samples * rays.split)
+        where = place(dimension, rays.depth) ^ rays.stream
+        numbers = draw(rays.key, rays.sample, where, self.samples * rays.split)
         return numbers.astype(self.real, copy=False)
-
-
-def _place(rays, dimension):
-    """A dimension of the path as one number: samplers hash it."""
-    return (dimension + _PER_BOUNCE * rays.depth) ^ rays.stream
 
 
 def seed_of(seed, replicate):

@@ -15,12 +15,12 @@ from functools import partial
 import numpy as np
 
 from ..arrays import Columns
+from ..dimensions import Dimension
 from ..maths.vectors import dot, length
 from ..scene.textured import luminance
 from ..world.interaction import leave_on_either_side
 from ..world.texturing import TexturePoints, clean
 from .clear_film import STRAIGHT
-from .numbers import Dimension
 from .texturing import points_of
 from .views import RayView
 from .visibility import blocked, travel

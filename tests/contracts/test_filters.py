@@ -248,7 +248,7 @@ def test_an_edge_rings_as_the_filter_says():
     """A half plane of light: pixels are the integral of the filter beyond the edge, below 0 and above 1 beside it."""
     lit = h.thing(h.quad((2, 0, 0), (4, 0, 0), (0, 4, 0), name="lit"), h.lambert(0.0, "light", emission=1.0))
     camera = OrthographicCamera.look_at((0, 0, 1), (0, 0, 0), up=(0, 1, 0), height=1.6)
-    settings = h.settings(width=16, height=16, samples=400, pixel_filter="mitchell", filter_width=4.0, sampler="sobol")
+    settings = h.settings(width=16, height=16, samples=512, pixel_filter="mitchell", filter_width=4.0, sampler="sobol")
     columns = h.pixels(h.scene([lit], camera=camera), settings)[0].astype(float).mean(axis=0)
     edge = np.arange(16) + 0.5 - 8
     fine = np.linspace(-2, 2, 40_001)

@@ -2,11 +2,14 @@
 
 import numpy as np
 import pytest
+from scipy.stats import qmc
 
 from glanz.engine import SAMPLERS, AreaLight
+from glanz.engine.dimensions import Dimension, place
 from glanz.engine.maths import sobol as digits
 from glanz.engine.maths.hashing import mix
 from glanz.engine.maths.strata import grid
+from glanz.engine.samplers import sobol
 from glanz.engine.samplers.blue_noise import BlueNoise
 from glanz.engine.samplers.grid import Grid
 from glanz.engine.samplers.multijitter import Multijitter
@@ -99,6 +102,32 @@ def test_powers_of_two_have_one_sample_in_each_elementary_interval(sampler):
     check_elementary_intervals(sampler)
 
 
+NEAR = [place(d, depth) for d in (Dimension.LIGHT, Dimension.DIRECTION) for depth in (0, 1)] + [place(Dimension.LENS)]
+
+
+def check_nearly_as_even(dimension):
+    """2^k samples are a (2, k, 2)-net: four in each elementary interval of four times their share of the area."""
+    key = pixels(Sobol, 8)
+    for bits in range(2, 13):
+        x, y = two(Sobol, key[: 1 + 256 // (1 << bits)], 1 << bits, dimension)
+        for a in range(bits - 1):
+            cell = np.sort(np.floor(x * 2**a) * 2 ** (bits - 2 - a) + np.floor(y * 2 ** (bits - 2 - a)), axis=1)
+            assert one_in_each(cell[:, ::4]), (bits, a)
+            assert one_in_each(cell[:, 3::4]), (bits, a)
+
+
+@pytest.mark.parametrize("dimension", NEAR)
+def test_lens_lights_and_directions_are_nearly_as_even_as_places_in_the_pixel(dimension):
+    check_nearly_as_even(dimension)
+
+
+def test_axes_that_are_not_nearly_as_even_are_noticed(monkeypatch):
+    """Those that follow each other: of 256 points eight share an interval with room for one."""
+    monkeypatch.setitem(sobol._AXES, place(Dimension.LENS), (11, 12))
+    with pytest.raises(AssertionError):
+        check_nearly_as_even(place(Dimension.LENS))
+
+
 @pytest.mark.parametrize("sampler", [Sobol, BlueNoise], ids=lambda s: s.key)
 def test_the_first_samples_of_a_power_of_two_are_spread_as_well(sampler):
     """17 samples are the beginning of 32: their first 16, 8 and 4 are nets."""
@@ -109,17 +138,38 @@ def test_the_first_samples_of_a_power_of_two_are_spread_as_well(sampler):
             assert one_in_each(cell[:, : 1 << bits])
 
 
-def test_the_second_sobol_dimension_is_that_of_the_direction_numbers():
-    """The recurrence of the primitive polynomial x + 1: v_k = v_(k-1) ^ v_(k-1) >> 1 (Sobol 1967; Joe and Kuo 2008)."""
-    v, direction = 1 << 31, []
-    for _ in range(32):
-        direction.append(v)
-        v ^= v >> 1
-    index = np.random.default_rng(1).integers(0, 2**32, 1000, dtype=np.uint32)
-    expected = np.zeros_like(index)
-    for bit, v in enumerate(direction):
-        expected ^= ((index >> np.uint32(bit)) & np.uint32(1)) * np.uint32(v)
-    assert (digits.reverse_bits(digits._pascal(index)) == expected).all()
+def test_the_axes_are_those_of_the_direction_numbers():
+    """Points 0 .. 1023 of SciPy's sequence (Joe and Kuo 2008), which comes in the order of Gray's code."""
+    coordinates = [digits.reverse_bits(digits._mirrored(np.arange(1024, dtype=np.uint32), axis)) for axis in range(digits.AXES)]
+    theirs = qmc.Sobol(digits.AXES, scramble=False, bits=32).random(1024) * 2**32
+    gray = np.arange(1024) ^ np.arange(1024) >> 1
+    assert (np.array(coordinates)[:, gray] == theirs.T).all()
+
+
+def test_each_axis_has_one_point_in_each_interval():
+    """Scrambled and in any order, also far beyond the first indices."""
+    index = np.arange(3 << 20, (3 << 20) + 1024, dtype=np.uint32)
+    for axis, row in enumerate(digits.points(index, np.full(1024, 77, np.uint32), range(digits.AXES))):
+        assert np.unique(row >> np.uint32(22)).size == 1024, axis
+
+
+def interactions(sampler, samples):
+    """RMSE over 2,000 pixels of the mean of products of numbers of two dimensions that matter in most pictures, 0 in truth: worst."""
+    key = np.concatenate([pixels(sampler, 20, seed=seed) for seed in range(5)])
+    pixel, light, way = (two(sampler, key, samples, d) - 0.5 for d in (Dimension.FILTER, Dimension.LIGHT, Dimension.DIRECTION))
+    pairs = ((pixel, light), (pixel, way), (light, way))
+    return max(np.sqrt(np.mean((a[i] * b[j]).mean(axis=1) ** 2)) for a, b in pairs for i in (0, 1) for j in (0, 1))
+
+
+@pytest.mark.parametrize("samples", [256, 1024, 2048, 8192])
+def test_the_numbers_that_matter_most_complement_each_other(samples):
+    """A product of two even but independent numbers is off by 1 / (12 sqrt(N)); drawn together, by less than half of that."""
+    assert interactions(Sobol, samples) < 0.5 / 12 / np.sqrt(samples)
+
+
+def test_numbers_that_are_drawn_apart_do_not(monkeypatch):
+    monkeypatch.setattr("glanz.engine.samplers.sobol._AXES", {})
+    assert interactions(Sobol, 1024) > 0.8 / 12 / np.sqrt(1024)
 
 
 def test_reversing_bits_mirrors_them():

@@ -26,8 +26,8 @@ from glanz.engine import (
     World,
     needs,
 )
+from glanz.engine.dimensions import Dimension
 from glanz.engine.plan import Plan
-from glanz.engine.wavefront.numbers import Dimension
 from glanz.engine.world.accel import Accel
 from glanz.tests import helpers as h, scenes, textured
 from glanz.tests.moving import moving, shifted, turned

@@ -34,6 +34,7 @@ ENGINE = Path(glanz.__file__).parent / "engine"
 SETTINGS = h.settings(width=8, height=8, samples=2, max_depth=2)
 PLAIN = {
     "arrays.py",
+    "dimensions.py",
     "bsdfs/lambert.py",
     "cameras/perspective.py",
     "filters/box.py",

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from glanz.engine import AreaLight, Material, Mirror, PerspectiveCamera, PointLight
+from glanz.engine.dimensions import Dimension
 from glanz.engine.samplers.stratified import Stratified
 from glanz.engine.wavefront import branching, visibility
-from glanz.engine.wavefront.numbers import Dimension, Numbers
+from glanz.engine.wavefront.numbers import Numbers
 from glanz.engine.wavefront.records import Rays
 from glanz.tests import helpers as h, scenes
 

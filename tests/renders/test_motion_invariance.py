@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from glanz.engine import rendering
-from glanz.engine.wavefront.numbers import Dimension, Numbers
+from glanz.engine.dimensions import Dimension
+from glanz.engine.wavefront.numbers import Numbers
 from glanz.engine.world.accel import Accel
 from glanz.tests import helpers as h, scenes
 from glanz.tests.moving import moving, shifted, turned
