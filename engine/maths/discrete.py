@@ -32,14 +32,19 @@ def probabilities(cdf):
 
 
 def choose(cdf, u1):
-    """Indices (N,): the i with cdf[i - 1] <= u1 < cdf[i]; a choice of probability 0 is never made."""
+    """Indices (N,): the i with cdf[i - 1] <= u1 < cdf[i]; a choice of probability 0 is never made. Any of them for what is no number."""
     if len(cdf) > _FEW:
-        return np.searchsorted(cdf, u1, side="right")
+        return _searched(cdf, u1)
     # For a handful of choices counting beats searching by far.
     index = np.zeros(u1.shape, np.intp)
     for edge in cdf[:-1].astype(u1.dtype):
         index += u1 >= edge
     return index
+
+
+def _searched(cdf, u1):
+    # What is no number is beyond all others.
+    return np.minimum(np.searchsorted(cdf, u1, side="right"), len(cdf) - 1)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -66,7 +71,7 @@ class Guide:
     def choose(self, u1):
         """What `choose` finds for u1 (N,) float64."""
         if self.steps > _MOST_STEPS:
-            return np.searchsorted(self.cdf, u1, side="right")
+            return _searched(self.cdf, u1)
         index = self.start.take((u1 * self.start.size).astype(np.intp), mode="clip")
         for _ in range(self.steps):
             index += self.cdf.take(index, mode="clip") <= u1

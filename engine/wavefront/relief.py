@@ -25,10 +25,13 @@ def bend_normals(plan, rays, surface):
         looked[row] = lanes, at
         for i, relief in enumerate(reliefs):
             bent = np.broadcast_to((at.on(own) if i else at).value(relief), own.ns.shape)
-            # Not where it is not a number either; and what is the same keeps every bit.
-            used = np.nonzero((bent != own.ns).any(axis=0) & (dot(bent, own.n) > 0))[0]
+            height = dot(bent, own.n)
+            # Not where it is not a number either, or beyond all numbers; and what is the same keeps every bit.
+            used = np.nonzero((bent != own.ns).any(axis=0) & (height > 0) & np.isfinite(height))[0]
+            bent = bent.take(used, axis=1).astype(ns.dtype, copy=False)
             normals = np.array(own.ns)
-            normals[:, used] = unit(bent.take(used, axis=1).astype(ns.dtype, copy=False))
+            # Without their size first, whose square may be beyond all numbers.
+            normals[:, used] = unit(bent / np.abs(bent).max(axis=0))
             own = dataclasses.replace(own, ns=normals)
         ns[:, lanes] = own.ns
     return dataclasses.replace(surface, ns=ns, looked=looked)

@@ -10,6 +10,9 @@ from ..maths.patches import lift
 from ..maths.vectors import cross, length
 from .moving_lamps import MovingLamps
 
+_LARGEST = 2.0**50
+"""The radius of what is larger, in units of render space, where all that is seen is about 1."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Emitters:
@@ -92,8 +95,12 @@ class Emitters:
         return self.count - (self.moving.count if self.moving else 0)
 
     def power(self):
-        """Radiant flux of both sides, luminance, in units of render space squared, (M,) float64."""
-        return 2 * PI * self.k.area.astype(np.float64) * (np.array(LUMINANCE) @ self.mean.astype(np.float64))
+        """Radiant flux of both sides, luminance, in units of render space squared, (M,) float64.
+
+        Next to none of what has more than any number: it is found where rays meet it, and others are still chosen.
+        """
+        power = 2 * PI * self.k.area.astype(np.float64) * (np.array(LUMINANCE) @ self.mean.astype(np.float64))
+        return np.where(np.isfinite(power), power, np.finfo(np.float64).tiny)
 
     def weights(self):
         """What each patch weighs, see `interfaces.Light.weight`, as columns (M,) float64; power as luminance."""
@@ -106,6 +113,8 @@ class Emitters:
         radius2 = (corners * corners).sum(axis=1).max(axis=0)
         if self.moving:
             radius2[self.still :] += self._swept2(centre[:, self.still :])
+        # What is larger than any number would leave none to its neighbours in a tree.
+        radius2 = np.where(radius2 < _LARGEST**2, radius2, _LARGEST**2)
         return Columns(
             centre=centre,
             power=self.power() / (2 * PI),

@@ -118,6 +118,21 @@ def test_a_normal_that_is_no_number_gives_a_finite_picture():
     assert np.isfinite(picture(blender.export()[0])).all()
 
 
+@pytest.mark.parametrize("size", [1e-30, 1e30])
+def test_a_normal_of_any_length_is_a_direction(size):
+    """Found by chance: the square of 1e30 is beyond single precision, and the normal was 0."""
+
+    def seen(size):
+        _, tree, surface = stage()
+        mapping = blender.add_node(tree, "ShaderNodeMapping", Location=(0.0, 0.3 * size, size), Scale=(0.0, 0.0, 0.0))
+        diffuse = blender.add_node(tree, "ShaderNodeBsdfDiffuse")
+        tree.links.new(mapping.outputs[0], diffuse.inputs["Normal"])
+        tree.links.new(diffuse.outputs[0], surface)
+        return picture(blender.export()[0])
+
+    np.testing.assert_allclose(seen(size), seen(1.0), rtol=1e-5, atol=1e-6)
+
+
 @pytest.mark.parametrize(("ior", "used"), [(-3.0, 0.001), (0.0, 0.001), (1e6, 1000.0), (1.5, 1.5)])
 @pytest.mark.parametrize("name", ["ShaderNodeBsdfGlass", "ShaderNodeBsdfPrincipled"])
 def test_an_index_of_refraction_beyond_all_reason_is_cut_off_and_said(name, ior, used):

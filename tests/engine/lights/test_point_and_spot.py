@@ -108,7 +108,7 @@ def test_the_flux_through_a_hard_cone_is_its_solid_angle_times_the_intensity():
     """2 pi (1 - cos(22.5 degrees)) = 0.478279 for I = 1, by counting directions; detects a cone of 46 degrees."""
     light = SpotLight(angle=math.radians(45), blend=0.0)
     assert light.power()[0] == pytest.approx(0.478279, abs=1e-6)
-    d = h.directions(1, 400_000)
+    d = h.directions(1, 1_000_000)
     k = h.table(light.row(h.UNIT_FRAME))
     assert h.mean_is(falloff(k, -d) * 4 * np.pi, 0.478279)
     assert not h.mean_is(falloff(h.table(h.replaced(light, angle=math.radians(46)).row(h.UNIT_FRAME)), -d) * 4 * np.pi, 0.478279)

@@ -94,3 +94,12 @@ def test_a_guide_with_a_step_too_few_is_caught():
     u = np.random.default_rng(3).random(5000)
     assert 0 < right.steps <= 2
     assert not np.array_equal(dataclasses.replace(right, steps=right.steps - 1).choose(u), right.choose(u))
+
+
+@pytest.mark.parametrize("count", [5, 500])
+@pytest.mark.parametrize("choose", [discrete.choose, lambda cdf, u: discrete.Guide.of(cdf).choose(u)], ids=["search", "guide"])
+def test_what_is_no_number_chooses_one_of_them_all_the_same(choose, count):
+    """Found by chance: it chose one beyond the last. The second weights are too uneven for a guide to be of help."""
+    for weights in (np.ones(count), 2.0 ** -np.arange(count)):
+        with np.errstate(invalid="ignore"):
+            assert 0 <= choose(discrete.cumulative(weights), np.array([np.nan]))[0] < count

@@ -1,5 +1,6 @@
 """One of many lights, with the probability that is told (catalogue B9)."""
 
+import dataclasses
 import math
 
 import numpy as np
@@ -225,3 +226,19 @@ def test_a_weak_light_is_found_beside_one_that_outshines_it():
     weak = index == np.argmin(np.bincount(index, minlength=2))
     assert h.mean_is(weak, 2.0**-10 / (1 + 2.0**-10), floor=1e-6)
     np.testing.assert_allclose(probability[weak], 2.0**-10 / (1 + 2.0**-10), rtol=1e-5)
+
+
+def test_a_lamp_beyond_all_numbers_leaves_the_others_a_choice():
+    """Found by chance: a patch that moves away further than numbers go has an infinite power, and beside it none had any."""
+    world, _, _ = choice_of([], panels(3))
+    emitters = world.emitters
+    for beyond in (np.inf, np.nan):
+        k = dataclasses.replace(emitters, k=Columns(**{name: np.array(column) for name, column in vars(emitters.k).items()}))
+        k.k.area[5] = beyond
+        choice = ByTree.of(k.power(), k.weights())
+        p = np.zeros((3, 10_000), np.float32)
+        index, probability, u2 = choice.choose(p, h.uniform(1, 10_000, np.float32))
+        assert np.isfinite(probability).all()
+        assert np.isfinite(u2).all()
+        assert len(np.unique(index)) > emitters.count // 2
+        assert (index == 5).mean() < 1e-2
