@@ -39,7 +39,7 @@ help:
 	@echo "make test-thorough    draw many new examples and random numbers for tests of laws, within an hour; GLANZ_SEED=... draws the same again"
 	@echo "make bench            measure speed against Cycles"
 	@echo "make bench-growth     measure how time and memory grow with pixels, triangles, lights, threads, ...; GROWTH=--quick in a minute"
-	@echo "make bench-targets    measure whether error targets are reached, in two hours; TARGETS=--quick in two minutes"
+	@echo "make bench-targets    measure whether error targets are reached, in a night; TARGETS=--quick in two minutes"
 	@echo "make bench-peers      measure time and error against Cycles and Mitsuba, in half an hour; PEERS=--quick in five minutes"
 	@echo "make bench-presets    measure what the presets cost and are worth on the sample scenes, in an hour; PRESETS=--quick in minutes"
 	@echo "make nodes            compare every node with Cycles for docs/nodes.md"
