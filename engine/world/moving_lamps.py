@@ -61,8 +61,8 @@ class MovingLamps:
         first, stride, steps, mover = map(np.concatenate, (first, stride, steps, mover))
         owner = np.array([m.parts[0].owner[0] for m in moving]).take(mover)
         corners = np.ascontiguousarray(corners.transpose(1, 0, 2))
-        # A face that is not kept has no area: whatever it shows is multiplied by 0.
-        prim = np.full(emits.size, movers.first)
+        # A face that is not kept has no area: whatever it shows is multiplied by 0. There may be no other one that moves.
+        prim = np.zeros(emits.size, np.intp)
         prim[kept] = movers.first + np.arange(kept.size)
         colours = (colour.take(first, axis=1) for colour in (shine, radiance))
         return cls(movers, corners, first, stride, steps, mover, owner, *colours, prim if is_located else None, lamp.take(kept))
