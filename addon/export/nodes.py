@@ -41,6 +41,11 @@ def words(mode):
     return mode.lower().replace("_", " ")
 
 
+def _counts(link):
+    # Cycles ignores the same ones.
+    return not link.is_muted and link.from_socket.enabled and link.to_socket.enabled
+
+
 DEEPEST = 1000
 """Nodes in a row, from the output on, that are followed."""
 
@@ -66,14 +71,17 @@ class Links:
         return type(self)(self.owner, self.findings, groups, trail, self._links)
 
     def _link(self, socket):
-        """The first link into an input `socket` that is not muted, or None; a node may lack an input, as a light's output in a material."""
+        """The first link into an input `socket` that is neither muted nor at a socket that a mode has put away, or None.
+
+        A node may lack an input, as a light's output in a material.
+        """
         if socket is None:
             return None
         tree = socket.id_data
         key = tree.as_pointer()
         if key not in self._links:
             # The first of several counts.
-            self._links[key] = {link.to_socket.as_pointer(): link for link in [*tree.links][::-1] if not link.is_muted}
+            self._links[key] = {link.to_socket.as_pointer(): link for link in [*tree.links][::-1] if _counts(link)}
         return self._links[key].get(socket.as_pointer())
 
     def beyond(self, node):

@@ -118,6 +118,19 @@ def test_a_normal_that_is_no_number_gives_a_finite_picture():
     assert np.isfinite(picture(blender.export()[0])).all()
 
 
+def test_a_link_from_an_output_that_a_mode_has_put_away_is_none():
+    """Found by chance: a vector came where a number was meant, and the export ended in a TypeError."""
+    _, tree, surface = stage()
+    ranged = blender.add_node(tree, "ShaderNodeMapRange")
+    glass = blender.add_node(tree, "ShaderNodeBsdfGlass", IOR=1.3)
+    tree.links.new(ranged.outputs[0], glass.inputs["IOR"])
+    tree.links.new(glass.outputs[0], surface)
+    ranged.data_type = "FLOAT_VECTOR"
+    assert not ranged.outputs[0].enabled
+    scene, _ = blender.export()
+    assert [lobe.ior for lobe in scene.objects[0].materials[0].lobes] == [pytest.approx(1.3)]
+
+
 @pytest.mark.parametrize("size", [1e-30, 1e30])
 def test_a_normal_of_any_length_is_a_direction(size):
     """Found by chance: the square of 1e30 is beyond single precision, and the normal was 0."""
