@@ -13,7 +13,7 @@ from glanz.tests.parity import parity
 AIR = {"altitude": 900.0, "air_density": 1.5, "aerosol_density": 2.0, "ozone_density": 3.0}
 SKIES = {
     "single": ("SINGLE_SCATTERING", {"sun_elevation": 0.26, "sun_rotation": 0.7}),
-    "single, sun setting": ("SINGLE_SCATTERING", {"sun_size": 0.3, "sun_elevation": 0.08, "sun_rotation": 2.5, **AIR}),
+    "single, sun setting": ("SINGLE_SCATTERING", {"sun_size": 0.33, "sun_elevation": 0.08, "sun_rotation": 2.5, **AIR}),
     "multiple": ("MULTIPLE_SCATTERING", {"sun_elevation": 0.6, "sun_rotation": -1.0}),
     "multiple, past zenith": ("MULTIPLE_SCATTERING", {"sun_size": 0.3, "sun_intensity": 0.5, "sun_elevation": 2.5, **AIR}),
     "multiple, sun has set": ("MULTIPLE_SCATTERING", {"sun_size": 0.1, "sun_elevation": -0.06, "sun_rotation": 4.0}),
