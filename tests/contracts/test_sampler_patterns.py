@@ -122,7 +122,7 @@ def test_lens_lights_and_directions_are_nearly_as_even_as_places_in_the_pixel(di
 
 
 def test_axes_that_are_not_nearly_as_even_are_noticed(monkeypatch):
-    """Those that follow each other: of 256 points eight share an interval with room for one."""
+    """Those that follow each other: of 256 points sixteen may share an interval with room for one."""
     monkeypatch.setitem(sobol._AXES, place(Dimension.LENS), (11, 12))
     with pytest.raises(AssertionError):
         check_nearly_as_even(place(Dimension.LENS))

@@ -13,24 +13,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 
-from glanz.engine import (
-    CheckerTexture,
-    Coordinates,
-    GlanzError,
-    Material,
-    PerspectiveCamera,
-    Settings,
-    SunLight,
-    arrays,
-    gathered,
-    prepare,
-    render,
-    render_image,
-    render_plan,
-)
+from glanz.engine import GlanzError, PerspectiveCamera, Settings, SunLight, arrays, gathered, prepare, render, render_plan
 from glanz.tests import anything, helpers as h
 from glanz.tests.chance import law
-from glanz.tests.moving import shifted
 
 SIGNED = ("mitchell",)
 """Filters that count some of a pixel's surroundings negatively."""
@@ -103,17 +88,6 @@ def test_any_scene_renders_to_finite_numbers_or_is_refused(case):
         return
     with nothing_is_trusted():
         check_any(*case)
-
-
-def test_a_torn_lamp_that_moves_with_a_texture_gives_no_light():
-    """Found by chance: it was the only thing that moved, and was looked up after the last triangle."""
-    texture = CheckerTexture(coordinates=Coordinates(source="generated"))
-    quad = h.quad((0, 0, 1))
-    torn = h.thing(h.replaced(quad, vertices=quad.vertices * np.array((1e30, 1, 1, 1))), Material(name="glow", emission=texture))
-    torn = h.replaced(torn, motion=shifted((0, 0, 0), (1, 0, 0)))
-    found = render_image(h.scene([h.thing(h.quad()), torn]), h.settings(samples=16, max_depth=0))
-    assert any("too far away" in line for line in found.warnings)
-    assert (found.passes["Combined"][..., :3] == 0).all()
 
 
 def test_an_index_that_is_garbage_is_noticed():

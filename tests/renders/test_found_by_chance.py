@@ -3,9 +3,22 @@
 import numpy as np
 import pytest
 
-from glanz.engine import AreaLight, Dielectric, EnvironmentMap, Lens, Material, Medium, Mesh, World, render_image
+from glanz.engine import (
+    AreaLight,
+    CheckerTexture,
+    Coordinates,
+    Dielectric,
+    EnvironmentMap,
+    Lens,
+    Material,
+    Medium,
+    Mesh,
+    World,
+    render_image,
+)
 from glanz.engine.wavefront import film
 from glanz.tests import helpers as h
+from glanz.tests.moving import shifted
 
 
 def test_bodies_of_which_no_triangle_is_left_are_not_there():
@@ -89,3 +102,14 @@ def test_what_holds_out_more_than_it_covers_is_not_less_than_clear():
     scene = h.scene([h.thing(h.quad((0, 0, 0), (9, 0, 0), (0, 9, 0)), veil)])
     image = render_image(scene, h.settings(film_transparent=True))
     np.testing.assert_array_equal(image.passes["Combined"], 0)
+
+
+def test_a_torn_lamp_that_moves_with_a_texture_gives_no_light():
+    """It was the only thing that moved, and was looked up after the last triangle."""
+    texture = CheckerTexture(coordinates=Coordinates(source="generated"))
+    quad = h.quad((0, 0, 1))
+    torn = h.thing(h.replaced(quad, vertices=quad.vertices * np.array((1e30, 1, 1, 1))), Material(name="glow", emission=texture))
+    torn = h.replaced(torn, motion=shifted((0, 0, 0), (1, 0, 0)))
+    found = render_image(h.scene([h.thing(h.quad()), torn]), h.settings(samples=16, max_depth=0))
+    assert any("too far away" in line for line in found.warnings)
+    assert (found.passes["Combined"][..., :3] == 0).all()
