@@ -1,5 +1,7 @@
 """Errors against the mean of other pictures are those against the truth."""
 
+import json
+
 import numpy as np
 import pytest
 
@@ -23,3 +25,14 @@ def test_pictures_are_counted_as_the_bounds_say():
     assert "20 of 20 pictures reached 0.7 to 1.05 times the target.\n1 of the 2 scenes got that far" in text
     assert "in 1 of these 19 of 20 pictures did" in text
     assert "| never | not within 16,384 samples | | 3.10 | | 16,384 |" in text
+
+
+def test_scenes_that_are_not_measured_again_stay_as_they_were(tmp_path):
+    """But for those that were measured in pictures of another size: they would stand in one table with what they cannot be compared to."""
+    path, wide = tmp_path / "targets.json", {"seeds": 20, "side": 32}
+    first, second = ({"reached": [error], "stated": [error], "samples": [64], "most": 1024} for error in (0.8, 0.9))
+    targets.keep(path, "one", first, wide)
+    targets.keep(path, "two", first, wide)
+    assert targets.keep(path, "one", second, wide)["scenes"] == {"one": second, "two": first}
+    assert json.loads(path.read_text(encoding="utf-8"))["scenes"] == {"one": second, "two": first}
+    assert targets.keep(path, "one", first, wide | {"side": 16})["scenes"] == {"one": first}
