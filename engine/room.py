@@ -6,7 +6,7 @@ import numpy as np
 
 from .memory import require
 
-LANES = 2**16
+LANES = 2**17
 """Paths in a batch: enough to hide Python, few enough for the cache."""
 TOGETHER = 4
 """Batches that are on the film at a time at most: what is left of them after a few bounces is followed together."""

@@ -10,7 +10,7 @@ from .records import Rays
 
 _FEW_SHARE = 16
 """Fewer misses than one in so many stay in their batch."""
-FEW = 2**14
+FEW = 2**15
 """Scattered rays that had better wait for others of their depth; they are enough when there are twice as many."""
 
 
