@@ -18,6 +18,7 @@ from .requirements import Requirements
 from .room import LANES, TOGETHER, require_room
 from .saved import NO_CHECKPOINT
 from .scene.validate import validate
+from .switching import brisk_switching
 from .wavefront.camera_rays import camera_rays
 from .wavefront.loop import trace
 from .wavefront.numbers import spread_at
@@ -120,7 +121,7 @@ def render_plan(plan, ends=(), cancelled=None, checkpoint=NO_CHECKPOINT):
     if work.done_with:
         yield Progress(work.done, tuple(_tile(plan, place, values, is_final=True) for place, values in work.done_with.items()))
     workers = min(settings.threads or os.cpu_count() or 1, len(places))
-    with ThreadPoolExecutor(workers, thread_name_prefix="glanz") as pool:
+    with brisk_switching(), ThreadPoolExecutor(workers, thread_name_prefix="glanz") as pool:
         try:
             while not (reached.ended_by or work.is_stopped()):
                 samples = ending.following(reached.samples, reached.error, reached.scatter)

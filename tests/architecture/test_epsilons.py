@@ -45,6 +45,7 @@ REVIEWED = {
     ("io/ies.py", 2.0**-13): "degrees",
     ("textures/ies.py", 2.0**-13): "degrees",
     ("wavefront/media.py", 0.9994): "part of a direction that people align nothing with",
+    ("switching.py", 0.0005): "seconds that a thread waits for another",
     # Published formulas.
     ("maths/atmosphere.py", 2e6 / 1.3681e20): "km^-1 and molecules of ozone",
     ("maths/atmosphere.py", 0.1 / 1000): "km of a height over the ground of the Earth",

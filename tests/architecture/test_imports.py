@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 ENGINE = ROOT / "engine"
 PLUGINS = ("bsdfs", "lights", "cameras", "samplers", "filters", "passes", "integrators", "textures")
 LAYERS = (
-    ("errors", "constants", "dimensions", "arrays", "registry", "memory"),
+    ("errors", "constants", "dimensions", "arrays", "registry", "memory", "switching"),
     ("maths",),
     ("interfaces",),
     ("needs",),
