@@ -5,18 +5,20 @@ import os
 import numpy as np
 
 from .memory import require
+from .wavefront.loop import few_wait
 
 LANES = 2**17
 """Paths in a batch: enough to hide Python, few enough for the cache."""
 TOGETHER = 4
 """Batches that are on the film at a time at most: what is left of them after a few bounces is followed together."""
 _LANE = 600
+_LEVEL, _LEVELS = 180, 16
 _TILE = 2500
 _REPLICATES = 152
 _RANKS = 128
 _BOOKS = 40
-"""Bytes of a path in single precision, of a tile that waits, of what a pixel of a film has for replicates and for each pass of ranks, and
-of one in work."""
+"""Bytes of a path in single precision, of each depth at which its branches wait, for so many depths, as deeper trees are thin; of a tile
+that waits, of what a pixel of a film has for replicates and for each pass of ranks, and of one in work."""
 _CURE = "lower the resolution, render a border, or ask for fewer passes"
 _DIVIDED = "; or for fewer adaptive levels, smaller tiles or fewer threads, as all pixels may be divided"
 _KEPT = "; or do without an error target, a time limit, a checkpoint and rounds over the whole frame, for which all tiles are kept"
@@ -53,7 +55,9 @@ def needed(plan, keeps, saves):
     picture = 4 * _channels(settings.passes, plan.passes)
     kept = width * height if keeps else in_work
     number = np.dtype(settings.real).itemsize
-    batch = LANES * number * (TOGETHER * (4 + rows) + _LANE // 4)
+    paths = min(LANES, in_work // workers) * settings.samples
+    lane = (_LANE if plan.wait is few_wait else _LANE + _LEVEL * min(plan.last_depth, _LEVELS)) // 4
+    batch = number * (min(TOGETHER * LANES, paths) * (4 + rows) + min(LANES, paths) * lane)
     # What is shown of a tile is divided, rounded and turned, when its samples are in.
     work = max(_BOOKS, 16 * rows)
     # Tiles wait until somebody takes them, and those that are kept come together in the end.

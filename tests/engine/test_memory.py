@@ -13,6 +13,7 @@ import pytest
 from glanz.engine import (
     Bitmap,
     Checkpoint,
+    Dielectric,
     EnvironmentMap,
     Material,
     MemoryShortage,
@@ -145,6 +146,23 @@ def test_a_picture_in_double_precision_takes_no_more_than_is_told_of_it(way):
     tracemalloc.stop()
     told = room.needed(plan, keeps=bool(ends or settings.time_limit), saves=False)
     assert 0.05 * told < peak <= told
+
+
+@pytest.mark.parametrize("precision", PRECISIONS)
+@pytest.mark.parametrize("samples", [1, 16])
+def test_rays_that_branch_at_every_depth_take_no_more_than_is_told_of_them(samples, precision):
+    """Behind every pixel are six panes of glass, and each of their rays is divided: batches of all depths are there at once."""
+    panes = [
+        h.thing(h.quad((0, 0, -0.1 * number), (4, 0, 0), (0, 4, 0)), Material(name="pane", lobes=(Dielectric(1.5),))) for number in range(6)
+    ]
+    settings = h.settings(width=64, height=64, samples=samples, tile_size=64, max_depth=12, integrator="whitted", precision=precision)
+    plan, _ = prepare(lit(*panes), settings)
+    gathered(render_plan(plan), settings)
+    tracemalloc.start()
+    gathered(render_plan(plan), settings)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert 0.1 * room.needed(plan, keeps=False, saves=False) < peak <= room.needed(plan, keeps=False, saves=False)
 
 
 @pytest.mark.parametrize("passes", [("Combined",), ("Combined", "Normal", "Depth", "Diffuse Direct", "CryptoObject00")], ids=len)
