@@ -44,6 +44,9 @@ def _sky(reader, node, output):
 
 def _above(elevation, rotation):
     """The same place of the sun with an elevation from -pi / 2 to pi / 2: a sun that has passed the zenith is on the other side."""
+    if not (math.isfinite(elevation) and math.isfinite(rotation)):
+        # For the engine to refuse, with its name.
+        return elevation, rotation
     elevation = math.remainder(elevation, 2 * math.pi)
     if abs(elevation) > 0.5 * math.pi:
         return math.copysign(math.pi, elevation) - elevation, math.remainder(rotation + math.pi, 2 * math.pi)

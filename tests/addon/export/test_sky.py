@@ -1,5 +1,7 @@
 """Sky Texture becomes the engine's sky; what that lacks is named."""
 
+import math
+
 import bpy
 import pytest
 
@@ -28,6 +30,12 @@ def test_a_sun_past_the_zenith_stands_on_the_other_side(turned, elevation, rotat
     sky, _ = exported("SINGLE_SCATTERING", sun_elevation=turned)
     assert sky.sun_elevation == pytest.approx(elevation, abs=1e-5)
     assert abs(sky.sun_rotation) == pytest.approx(rotation, abs=1e-5)
+
+
+@pytest.mark.parametrize("angle", ["sun_elevation", "sun_rotation"])
+def test_an_angle_of_the_sun_that_is_not_finite_is_for_the_engine_to_refuse(angle):
+    """It has no remainder. A render names the material or world, and what is allowed."""
+    assert getattr(exported("SINGLE_SCATTERING", **{angle: math.inf})[0], angle) == math.inf
 
 
 def test_a_sun_without_a_size_is_the_smallest_of_cycles():
