@@ -6,8 +6,9 @@ from contextlib import contextmanager
 
 SECONDS = 0.0005
 """Threads let go of the lock for every call to NumPy and Embree, but mostly take it again before one that waits has woken up: that one
-gets it for certain only after this time. Python's own 5 ms are as long as twenty such calls."""
-_lock = threading.Lock()
+gets it for certain only after this time, which is 5 ms in Python."""
+_lock = threading.RLock()
+# Not Lock: a render that was left may be collected, and end, while this very thread holds it.
 _before = []
 """The interval of the process before the first of the renders that are under way, one entry for each of them."""
 

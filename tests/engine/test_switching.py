@@ -1,10 +1,11 @@
 """The interval at which threads take turns is a render's own for as long as it lasts, and the process' again after it."""
 
 import sys
+import threading
 
 import pytest
 
-from glanz.engine import Settings, rendering
+from glanz.engine import Settings, rendering, switching
 from glanz.engine.switching import SECONDS, brisk_switching
 from glanz.tests import helpers as h
 
@@ -43,6 +44,21 @@ def test_of_renders_that_overlap_the_last_to_end_brings_the_interval_back():
     assert sys.getswitchinterval() == pytest.approx(SECONDS)
     second.__exit__(None, None, None)
     assert sys.getswitchinterval() == pytest.approx(0.004)
+
+
+def test_a_render_that_ends_while_the_same_thread_begins_another_does_not_wait_for_itself():
+    """As one that was left does when it is collected."""
+    render = brisk_switching()
+    render.__enter__()
+    ended = threading.Event()
+
+    def begin():
+        with switching._lock:
+            render.__exit__(None, None, None)
+        ended.set()
+
+    threading.Thread(target=begin, daemon=True).start()
+    assert ended.wait(10)
 
 
 def test_a_shorter_interval_of_the_process_stays():
