@@ -24,7 +24,8 @@ def _sky(reader, node, output):
     if model in ("preetham", "hosek wilkie"):
         x, y, z = node.sun_direction
         length = math.hypot(x, y, z)
-        towards = (x / length, y / length, z / length) if length > 0 else (0.0, 0.0, 1.0)
+        # What is not finite is no unit vector, which the engine refuses.
+        towards = (x / length, y / length, z / length) if length else (0.0, 0.0, 1.0)
         return SkyTexture(model, sun_direction=towards, turbidity=node.turbidity, ground_albedo=node.ground_albedo, **where)
     elevation, rotation = _above(node.sun_elevation, node.sun_rotation)
     return SkyTexture(

@@ -69,6 +69,7 @@ class SkyTexture:
             "sun_size": (np.finfo(np.float32).tiny, 0.5 * np.pi),
             "sun_intensity": (0, np.inf),
             "sun_elevation": (-0.5 * np.pi, 0.5 * np.pi),
+            "sun_rotation": (-np.inf, np.inf),
             "altitude": (-np.inf, np.inf),
             "air": (0, np.inf),
             "haze": (0, np.inf),
@@ -80,6 +81,8 @@ class SkyTexture:
             value = getattr(self, name)
             if not (np.isfinite(value) and np.float32(least) <= np.float32(value) <= np.float32(most)):
                 raise SceneError(f"{owner}: {name} of a sky is {value}, allowed: {least:.4g} to {most:.4g}")
+        if not np.isfinite(self.sun_direction).all():
+            raise SceneError(f"{owner}: sun_direction of a sky is {tuple(self.sun_direction)}, allowed: a unit vector")
 
     def eval(self, at):
         d, _ = at.look_up(self.coordinates)

@@ -5,7 +5,7 @@ import math
 import bpy
 import pytest
 
-from glanz.engine import LinearTexture
+from glanz.engine import LinearTexture, SceneError, Settings, render_image
 from glanz.tests.addon import blender
 from glanz.tests.parity.test_sky import set_sky
 
@@ -32,10 +32,19 @@ def test_a_sun_past_the_zenith_stands_on_the_other_side(turned, elevation, rotat
     assert abs(sky.sun_rotation) == pytest.approx(rotation, abs=1e-5)
 
 
-@pytest.mark.parametrize("angle", ["sun_elevation", "sun_rotation"])
-def test_an_angle_of_the_sun_that_is_not_finite_is_for_the_engine_to_refuse(angle):
-    """It has no remainder. A render names the material or world, and what is allowed."""
-    assert getattr(exported("SINGLE_SCATTERING", **{angle: math.inf})[0], angle) == math.inf
+@pytest.mark.parametrize(
+    ("model", "name", "value"),
+    [
+        ("SINGLE_SCATTERING", "sun_elevation", math.inf),
+        ("SINGLE_SCATTERING", "sun_rotation", math.inf),
+        ("PREETHAM", "sun_direction", (math.nan, 0.0, 1.0)),
+    ],
+)
+def test_a_place_of_the_sun_that_is_not_finite_is_refused_by_its_name(model, name, value):
+    set_sky(model, {name: value})
+    scene, _ = blender.export()
+    with pytest.raises(SceneError, match=f"world.*{name} of a sky is .*(inf|nan).*, allowed"):
+        render_image(scene, Settings(width=2, height=2, samples=1))
 
 
 def test_a_sun_without_a_size_is_the_smallest_of_cycles():
