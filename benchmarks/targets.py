@@ -13,6 +13,7 @@ import math
 import sys
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
+from datetime import date
 from pathlib import Path
 
 import numpy as np
@@ -60,7 +61,7 @@ def keep(path, name, found, effort):
 
 
 def measured(pool, name, seeds, side):
-    """{"reached", "stated", "samples": lists over the seeds} of a sample scene, errors over `TARGET`; and "most", MOST.
+    """{"reached", "stated", "samples": lists over the seeds} of a sample scene, errors over `TARGET`; "most", MOST; and the "date".
 
     One that needs more than so many samples has no further pictures, and nothing "reached".
     """
@@ -75,6 +76,7 @@ def measured(pool, name, seeds, side):
         "stated": [end.error / TARGET for end in ends],
         "samples": [end.samples for end in ends],
         "most": MOST,
+        "date": date.today().isoformat(),
     }
 
 
@@ -106,9 +108,10 @@ def row(name, found):
     """A line of the table."""
     samples, stated = f"{np.mean(found['samples']):,.0f}", f"{np.mean(found['stated']):.2f}"
     if not found["reached"]:
-        return f"| {name} | not within {found['most']:,} samples | | {stated} | | {samples} |"
+        return f"| {name} | not within {found['most']:,} samples | | {stated} | | {samples} | {found['date']} |"
     low, middle, high = np.percentile(found["reached"], (5, 50, 95))
-    return f"| {name} | {middle:.2f} | {low:.2f} to {high:.2f} | {stated} | {inside(found)} of {len(found['reached'])} | {samples} |"
+    reached = f"{middle:.2f} | {low:.2f} to {high:.2f} | {stated} | {inside(found)} of {len(found['reached'])}"
+    return f"| {name} | {reached} | {samples} | {found['date']} |"
 
 
 def page(results):
@@ -125,10 +128,11 @@ def page(results):
         f"{len(ended)} of the {len(scenes)} scenes got that far with the samples they may have; in {good} of these 19 of 20 pictures did.",
         "Errors are in units of the target. Each picture is held against the mean of the others, a reference of 19 times as many",
         "samples whose own error is taken off: that is the noise; that there is no bias is for tests to say. In so small pictures a",
-        "single pixel that light is rarely found for counts for much.",
+        "single pixel that light is rarely found for counts for much. Samples are those that the engine took",
+        "on the day that the scene was measured.",
         "",
-        "| scene | reached (median) | 5 to 95 of 100 | stated (mean) | in the bounds | samples |",
-        "|---|---|---|---|---|---|",
+        "| scene | reached (median) | 5 to 95 of 100 | stated (mean) | in the bounds | samples | measured |",
+        "|---|---|---|---|---|---|---|",
         *(row(name, found) for name, found in scenes.items()),
     ]
     return "\n".join(lines) + "\n"
