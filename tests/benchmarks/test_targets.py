@@ -27,6 +27,37 @@ def test_pictures_are_counted_as_the_bounds_say():
     assert "| never | not within 16,384 samples | | 3.10 | | 16,384 | 2026-02-01 |" in text
 
 
+def test_scenes_that_miss_the_bounds_are_told_beside_the_same_twice_as_wide():
+    plain = {"stated": [0.9] * 20, "samples": [400] * 20, "most": 16384, "date": "2026-01-31"}
+    unlucky, good = ({"reached": [0.9] * (20 - missed) + [1.1] * missed} | plain for missed in (2, 1))
+    assert [targets.is_good(found) for found in (unlucky, good, {"reached": []})] == [False, True, False]
+    text = targets.page({"facts": {"side": 32, "seeds": 20}, "scenes": {"one": unlucky | {"wider": good}, "two": good}})
+    assert "37 of 40 pictures reached" in text
+    assert "rendered once more twice as wide: 1, of which 1 kept to them there" in text
+    lines = [line.split(" | ") for line in text.splitlines() if line.startswith(("| one", "| two"))]
+    assert [(name, inside) for name, _, _, _, inside, *_ in lines] == [
+        ("| one", "18 of 20"),
+        ("| one, 64 px", "19 of 20"),
+        ("| two", "19 of 20"),
+    ]
+
+
+def test_pictures_are_rendered_wider_only_where_the_bounds_are_missed(tmp_path, monkeypatch):
+    asked = []
+
+    def measured(pool, name, seeds, side):
+        asked.append((name, side))
+        reached = [1.1 if name == "prism" and side == 16 else 0.9] * seeds
+        return {"reached": reached, "stated": [0.9], "samples": [64], "most": 1024, "date": "2026-01-31"}
+
+    monkeypatch.setattr(targets, "measured", measured)
+    monkeypatch.setattr(targets, "ROOT", tmp_path)
+    targets.main(["--quick", "prism", "lights"], workers=1)
+    assert asked == [("prism", 16), ("prism", 32), ("lights", 16)]
+    kept = json.loads((tmp_path / "out/targets/targets.json").read_text(encoding="utf-8"))["scenes"]
+    assert ("wider" in kept["prism"], "wider" in kept["lights"]) == (True, False)
+
+
 def test_scenes_that_are_not_measured_again_stay_as_they_were(tmp_path):
     """But for those that were measured in pictures of another size: they would stand in one table with what they cannot be compared to."""
     path, wide = tmp_path / "targets.json", {"seeds": 20, "side": 32}
