@@ -1,13 +1,14 @@
-"""The sample scenes as the engine gets them, small, for measurements of the engine alone."""
+"""The sample scenes as the engine gets them, small, for measurements of the engine alone.
+
+Blender is imported by who loads one, and not before: a process that is forked off one with Blender has none of the threads with which
+images are read, and would wait for them.
+"""
 
 from dataclasses import replace
 from pathlib import Path
 
 import glanz
-from glanz.addon.capture import capture, open_blend
 from glanz.cli import curve
-
-from .blender import quiet
 
 FOLDER = Path(glanz.__file__).resolve().parent / "sample_scenes"
 WITHOUT = ("zone_plate",)
@@ -17,6 +18,10 @@ NAMES = tuple(sorted(path.stem for path in FOLDER.glob("*.blend") if path.stem n
 
 def load(name, width, height):
     """(scene, settings) of a sample scene at so many pixels, on one thread."""
+    from glanz.addon.capture import capture, open_blend
+
+    from .blender import quiet
+
     glanz.register()
     with quiet():
         open_blend(str(FOLDER / f"{name}.blend"))

@@ -1,6 +1,8 @@
 """Errors against the mean of other pictures are those against the truth."""
 
 import json
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -56,6 +58,25 @@ def test_pictures_are_rendered_wider_only_where_the_bounds_are_missed(tmp_path, 
     assert asked == [("prism", 16), ("prism", 32), ("lights", 16)]
     kept = json.loads((tmp_path / "out/targets/targets.json").read_text(encoding="utf-8"))["scenes"]
     assert ("wider" in kept["prism"], "wider" in kept["lights"]) == (True, False)
+
+
+_READ = """
+import multiprocessing, os
+from concurrent.futures import ProcessPoolExecutor
+from glanz.benchmarks import small_scenes, targets
+try:
+    scene, _ = ProcessPoolExecutor(1).submit(small_scenes.load, "environment", 8, 6).result(timeout=100)
+    print("read", scene.world.environment.pixels.max() > 0, flush=True)
+finally:
+    for child in multiprocessing.active_children():
+        child.kill()
+    os._exit(0)
+"""
+
+
+def test_processes_of_a_pool_read_images():
+    """Those that are forked off a process with Blender have not the threads that read images, and wait for them for ever."""
+    assert "read True" in subprocess.run([sys.executable, "-c", _READ], capture_output=True, text=True, timeout=120).stdout
 
 
 def test_scenes_that_are_not_measured_again_stay_as_they_were(tmp_path):
