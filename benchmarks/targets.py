@@ -4,7 +4,7 @@
 
 Each scene is rendered to `TARGET` with `SEEDS` seeds, and each picture is held against the mean of all the others: that is a reference of
 19 times as many samples, whose own error is known and taken off. So the noise is measured; that it is all, and there is no bias, other
-tests say. A scene that misses the bounds too often is rendered once more twice as wide: if it was luck, half of it is left. Writes
+tests say. A scene that misses the bounds too often is rendered once more twice as wide, where luck should be less. Writes
 docs/targets.md and docs/targets.json, in which scenes that are not named stay as they were measured last: so a night can be divided.
 What is quick goes to out/targets.
 """

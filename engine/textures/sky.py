@@ -80,7 +80,7 @@ class SkyTexture:
         for name, (least, most) in ranges.items():
             value = getattr(self, name)
             if not (np.isfinite(value) and np.float32(least) <= np.float32(value) <= np.float32(most)):
-                raise SceneError(f"{owner}: {name} of a sky is {value}, allowed: {least:.4g} to {most:.4g}")
+                raise SceneError(f"{owner}: {name} of a sky is {value}, allowed: finite numbers, {least:.4g} to {most:.4g}")
         if not np.isfinite(self.sun_direction).all():
             raise SceneError(f"{owner}: sun_direction of a sky is {tuple(self.sun_direction)}, allowed: a unit vector")
 

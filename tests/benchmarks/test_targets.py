@@ -61,12 +61,14 @@ def test_pictures_are_rendered_wider_only_where_the_bounds_are_missed(tmp_path, 
 
 
 _READ = """
-import multiprocessing, os
+import multiprocessing, os, traceback
 from concurrent.futures import ProcessPoolExecutor
 from glanz.benchmarks import small_scenes, targets
 try:
     scene, _ = ProcessPoolExecutor(1).submit(small_scenes.load, "environment", 8, 6).result(timeout=100)
     print("read", scene.world.environment.pixels.max() > 0, flush=True)
+except BaseException:
+    traceback.print_exc()
 finally:
     for child in multiprocessing.active_children():
         child.kill()
@@ -76,7 +78,8 @@ finally:
 
 def test_processes_of_a_pool_read_images():
     """Those that are forked off a process with Blender have not the threads that read images, and wait for them for ever."""
-    assert "read True" in subprocess.run([sys.executable, "-c", _READ], capture_output=True, text=True, timeout=120).stdout
+    done = subprocess.run([sys.executable, "-c", _READ], capture_output=True, text=True, timeout=120)
+    assert "read True" in done.stdout, done.stderr
 
 
 def test_scenes_that_are_not_measured_again_stay_as_they_were(tmp_path):
